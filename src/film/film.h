@@ -1,0 +1,97 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "base/vec.h"
+
+namespace voxlume {
+
+/// What one camera sample contributes to its pixel.
+struct PixelSample {
+  Vec3f radiance{};    ///< linear Rec. 709; includes the background unless that is transparent
+  float alpha = 0;     ///< 1 when the camera ray scattered, else 0
+  Vec3f albedo{};      ///< of the first scattering; ignored when alpha is 0, as are the next two
+  Vec3f normal{};      ///< of the first scattering, LPS, unit length or zero
+  float depth_mm = 0;  ///< from the eye to the first scattering
+};
+
+/// Which sums a film keeps beyond radiance, alpha and their error.
+struct FilmLayers {
+  bool depth = false, normal = false, albedo = false;
+  friend bool operator==(const FilmLayers&, const FilmLayers&) = default;
+};
+
+/// The pixels of a picture while it is rendered: sums in double precision and the number of samples of each pixel.
+/// A pixel's samples are added in sample order by one thread at a time; then the sums, and everything derived from
+/// them, do not depend on the number of threads or the order of the pixels.
+class Film {
+ public:
+  /// 1 <= width, height <= 65536. Throws Error kBadParameter, or kOutOfMemory when the sums cannot be held.
+  Film(int width, int height, FilmLayers layers = {});
+
+  /// Adds one sample to pixel (x, y). A radiance, normal, albedo or depth that is not finite becomes zero, and the
+  /// sample is counted in nonfinite_samples(); the pixel's sample count grows all the same.
+  void add(int x, int y, const PixelSample& sample) noexcept;
+
+  int width() const noexcept { return width_; }
+  int height() const noexcept { return height_; }
+  FilmLayers layers() const noexcept { return layers_; }
+  std::size_t pixel_count() const noexcept { return sums_.size(); }
+
+  // Of one pixel. All are zero before its first sample.
+  std::uint32_t sample_count(int x, int y) const noexcept { return counts_[index(x, y)]; }
+  /// Mean radiance, linear Rec. 709.
+  Vec3d mean(int x, int y) const noexcept;
+  /// Share of samples that scattered, [0,1].
+  double alpha(int x, int y) const noexcept;
+  /// Unbiased estimate of the variance of the mean's luminance; zero for fewer than two samples.
+  double variance_of_mean(int x, int y) const noexcept;
+  /// Square root of variance_of_mean().
+  double standard_error(int x, int y) const noexcept;
+  /// Means over the samples that scattered; zero when none did or when the film lacks the layer.
+  /// The mean normal is not normalised.
+  Vec3d albedo(int x, int y) const noexcept;
+  Vec3d normal(int x, int y) const noexcept;
+  double depth_mm(int x, int y) const noexcept;
+
+  // Of the picture.
+  /// Mean over pixels of standard error / (luminance + 0.01): the quantity that `--noise` bounds. Meaningful once
+  /// pixels have several samples.
+  double noise() const noexcept;
+  /// Mean over pixels of the luminance of mean().
+  double mean_luminance() const noexcept;
+  std::uint64_t total_samples() const noexcept;
+  std::uint64_t nonfinite_samples() const noexcept { return nonfinite_samples_; }
+
+  /// Memory of a film of this kind, in bytes per pixel.
+  static std::size_t bytes_per_pixel(FilmLayers layers) noexcept;
+
+  /// Every accumulator as raw bytes, in a fixed order and with sizes that depend on size and layers alone. Copying
+  /// them to another film of the same size and layers copies the film bit for bit.
+  std::vector<std::span<const std::byte>> accumulators() const;
+  std::vector<std::span<std::byte>> accumulators();
+
+ private:
+  struct Sums {
+    Vec3d radiance;
+    double luminance_squared = 0;
+    double alpha = 0;
+  };
+
+  std::size_t index(int x, int y) const noexcept { return static_cast<std::size_t>(y) * width_ + x; }
+  Vec3d mean_at(std::size_t i) const noexcept;
+  double variance_of_mean_at(std::size_t i) const noexcept;
+
+  int width_, height_;
+  FilmLayers layers_;
+  std::vector<Sums> sums_;
+  std::vector<std::uint32_t> counts_;
+  std::vector<double> depths_;          // weighted by alpha, as are the next two
+  std::vector<Vec3d> normals_, albedos_;
+  std::uint64_t nonfinite_samples_ = 0;  // written by many threads, through an atomic reference
+};
+
+}  // namespace voxlume

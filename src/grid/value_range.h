@@ -1,0 +1,28 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "grid/grid_view.h"
+
+namespace voxlume {
+
+/// Least and greatest value of the interpolated data in a cell; lower > upper when the cell has no finite value.
+struct ValueRange {
+  float lower, upper;
+  bool empty() const { return lower > upper; }
+};
+
+/// Value ranges of cubic cells of `cell_voxels` spacings. Cell (i,j,k) starts at the integer p_index
+/// (i,j,k)*cell_voxels; the outermost cells reach to the end of the domain. A cell's range is taken over its
+/// (cell_voxels+1)^3 voxels: the trilinear field is continuous and attains that range and nothing outside it.
+struct ValueRangeGrid {
+  std::int32_t cells[3] = {0, 0, 0};
+  std::int32_t cell_voxels = 0;
+  std::vector<ValueRange> ranges;  ///< i fastest
+};
+
+/// Builds the ranges, once per volume, on all threads. `cell_voxels` >= 1. Ranges are widened by the rounding of
+/// the interpolation (a few ulp), so that they hold for the floats sample_trilinear returns.
+ValueRangeGrid build_value_ranges(const GridView& grid, int cell_voxels);
+
+}  // namespace voxlume

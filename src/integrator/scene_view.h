@@ -1,0 +1,55 @@
+#pragma once
+#include <cstdint>
+
+#include "camera/camera.h"
+#include "light/lights_view.h"
+#include "tracking/medium.h"
+#include "voxlume/scene.h"
+
+namespace voxlume {
+
+/// Colours laid over the transfer function's by a label volume.
+struct LabelsView {
+  GridView grid;                    ///< nearest lookup
+  const Vec3f* color = nullptr;     ///< by label value; component x < 0: the label has no colour
+  std::int32_t color_count = 0;     ///< 0: no labels
+  float strength = 1;
+};
+
+/// How matter scatters, everywhere alike.
+struct ScatteringView {
+  Shading shading = Shading::kCoexistence;
+  SurfaceShareForm surface_share = SurfaceShareForm::kHybrid;
+  float gradient_factor = 0.5f;
+  bool opacity_modulated = true;
+  float g = 0, alpha = 0.16f, f0 = 0.04f;
+  float inverse_gradient_scale = 1;  ///< 1 / 99.9th percentile of the gradient magnitude [mm per data unit]
+};
+
+enum class LightSampling { kMis, kLight, kDirection };
+
+/// Everything a path needs, as plain data. Compiled once by CompiledScene, which owns what this points to.
+struct SceneView {
+  Medium medium;
+  Box3f domain_index;             ///< the volume
+  Box3f clip_world;               ///< LPS mm; what is kept
+  bool clip_blocks_light = false; ///< what is cut away still attenuates light
+  ScatteringView scattering;
+  LabelsView labels;
+
+  LightsView lights;
+  Vec3f ambient{0};               ///< radiance added unshadowed at every scattering (xu2024 6.1)
+  CameraView camera;
+  BackgroundKind background = BackgroundKind::kColor;
+  Vec3f background_color{0};
+
+  std::int32_t width = 0, height = 0;
+  PixelFilter filter = PixelFilter::kGaussian;
+  float filter_radius_px = 1.5f;
+  std::uint64_t seed = 0;
+  std::uint32_t frame = 0;
+  std::int32_t max_scatter = 2;   ///< 0: no limit
+  LightSampling light_sampling = LightSampling::kMis;
+};
+
+}  // namespace voxlume

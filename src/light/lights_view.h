@@ -1,0 +1,42 @@
+#pragma once
+#include "base/vec.h"
+#include "sampling/distribution.h"
+#include "voxlume/scene.h"
+
+namespace voxlume {
+
+/// A compiled light in LPS space. Fields that a kind does not name are not used by it.
+struct Light {
+  LightKind kind;
+  bool two_sided;        ///< rect: emits from its back too
+  Vec3f emission;        ///< directional: irradiance; point: radiant intensity; rect: radiance
+  Vec3f position_mm;     ///< point; rect: the centre
+  Vec3f direction;       ///< directional: unit, toward the light; rect: unit normal of the front
+  Vec3f axis_x, axis_y;  ///< rect: unit, along width and height
+  float half_width_mm, half_height_mm;  ///< rect
+};
+
+/// Radiance from infinitely far. A constant, or a picture of piecewise constant texels: row 0 is the top
+/// (+axis_z), column centres run left to right as seen from inside, and the picture's centre (u = 0.5) is
+/// along +axis_y, u = 0.75 along +axis_x.
+struct EnvironmentView {
+  Vec3f axis_x, axis_y, axis_z;        ///< LPS directions of the environment's own axes, orthonormal
+  Vec3f constant;                      ///< radiance when there is no picture
+  int width = 0, height = 0;           ///< 0: no picture
+  const Vec3f* texels = nullptr;       ///< radiance, row after row
+  Distribution2DView choice;           ///< by luminance x solid angle
+  const float* cap_versine = nullptr;  ///< [row] = 1 - cos(pi row / height), height + 1 of them
+};
+
+/// Every light, as the renderer's inner loops see it.
+struct LightsView {
+  const Light* lights = nullptr;  ///< rect lights first
+  int light_count = 0;
+  int rect_count = 0;
+  bool has_environment = false;
+  EnvironmentView environment;
+  /// Probabilities of the lights, then of the environment (index light_count). No bins: nothing emits.
+  Distribution1DView pick;
+};
+
+}  // namespace voxlume

@@ -1,0 +1,92 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/vec.h"
+#include "voxlume/scene.h"
+
+namespace voxlume {
+
+// Maps of the unit square. All u are uniform in [0, 1 - 2^-24]; every result is finite.
+
+/// Density of uniform_sphere, 1/sr.
+constexpr float kUniformSpherePdf = 0.25f * std::numbers::inv_pi_v<float>;
+
+/// The unit vector at `versine` = 1 - cos(theta), in [0, 2], from +z and azimuth 2 pi u1. Unlike the cosine,
+/// the versine keeps its relative precision near the axis.
+inline Vec3f direction_from_versine(float versine, float u1) noexcept {
+  const float sin_theta = std::sqrt(std::max(0.0f, versine * (2.0f - versine)));
+  const float phi = 2.0f * std::numbers::pi_v<float> * u1;
+  return {sin_theta * std::cos(phi), sin_theta * std::sin(phi), 1.0f - versine};
+}
+
+/// Unit vector, uniform over the sphere.
+inline Vec3f uniform_sphere(float u0, float u1) noexcept { return direction_from_versine(2.0f * u0, u1); }
+
+/// Unit vector, uniform in solid angle over the cone about +z whose half angle has the cosine 1 -
+/// versine_max.
+inline Vec3f uniform_cone(float versine_max, float u0, float u1) noexcept {
+  return direction_from_versine(versine_max * u0, u1);
+}
+
+struct DiskPoint {
+  float x, y;
+};
+
+/// Uniform over the unit disk; keeps neighbours together (Shirley and Chiu 1997).
+inline DiskPoint concentric_disk(float u0, float u1) noexcept {
+  const float a = 2.0f * u0 - 1.0f;
+  const float b = 2.0f * u1 - 1.0f;
+  if (a == 0.0f && b == 0.0f) return {0.0f, 0.0f};
+  constexpr float kQuarterPi = 0.25f * std::numbers::pi_v<float>;
+  const bool a_leads = std::abs(a) > std::abs(b);
+  const float radius = a_leads ? a : b;
+  const float phi = a_leads ? kQuarterPi * (b / a) : 2.0f * kQuarterPi - kQuarterPi * (a / b);
+  return {radius * std::cos(phi), radius * std::sin(phi)};
+}
+
+/// Unit vector about +z with density cosine_hemisphere_pdf (Malley's method).
+inline Vec3f cosine_hemisphere(float u0, float u1) noexcept {
+  const DiskPoint p = concentric_disk(u0, u1);
+  return {p.x, p.y, std::sqrt(std::max(0.0f, 1.0f - p.x * p.x - p.y * p.y))};
+}
+
+/// Density of cosine_hemisphere, 1/sr; 0 below the hemisphere.
+inline float cosine_hemisphere_pdf(float cos_theta) noexcept {
+  return std::max(0.0f, cos_theta) * std::numbers::inv_pi_v<float>;
+}
+
+/// Inverse of erf for |x| <= 0.9999, relative error below 1e-6 (Giles 2010, "Approximating the erfinv
+/// function", the single precision polynomials).
+inline float inverse_erf(float x) noexcept {
+  const float w = -std::log((1.0f - x) * (1.0f + x));
+  float p;
+  if (w < 5.0f) {
+    const float v = w - 2.5f;
+    p = 2.81022636e-08f;
+    for (float c : {3.43273939e-07f, -3.5233877e-06f, -4.39150654e-06f, 0.00021858087f, -0.00125372503f,
+                    -0.00417768164f, 0.246640727f, 1.50140941f})
+      p = c + p * v;
+  } else {
+    const float v = std::sqrt(w) - 3.0f;
+    p = -0.000200214257f;
+    for (float c : {0.000100950558f, 0.00134934322f, -0.00367342844f, 0.00573950773f, -0.0076224613f,
+                    0.00943887047f, 1.00167406f, 2.83297682f})
+      p = c + p * v;
+  }
+  return p * x;
+}
+
+/// Importance-samples one axis of the pixel filter: an offset from the pixel's centre in pixels, within
+/// [-radius_px, radius_px]. The gaussian has sigma = radius_px / 3 and is cut at the radius exactly.
+inline float sample_filter(PixelFilter filter, float radius_px, float u) noexcept {
+  const float centred = 2.0f * u - 1.0f;
+  if (filter == PixelFilter::kBox) return radius_px * centred;
+  constexpr float kErfOfCut = 0.99730020393674f;  // erf(3 / sqrt 2)
+  const float sigma = radius_px * (1.0f / 3.0f);
+  const float offset = sigma * std::numbers::sqrt2_v<float> * inverse_erf(centred * kErfOfCut);
+  return std::clamp(offset, -radius_px, radius_px);
+}
+
+}  // namespace voxlume

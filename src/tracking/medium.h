@@ -1,0 +1,30 @@
+#pragma once
+#include "accel/majorant_view.h"
+#include "grid/sample.h"
+#include "transfer/transfer_view.h"
+
+namespace voxlume {
+
+/// The participating medium: data, its classification and a bound of it.
+struct Medium {
+  GridView grid;
+  TransferView transfer;
+  MajorantView majorant;
+};
+
+/// A ray in index space that keeps t in mm.
+struct IndexRay {
+  Vec3f origin_index;
+  Vec3f direction_index;  ///< index units per mm
+};
+
+inline IndexRay to_index_ray(const GridView& grid, Vec3f origin_world, Vec3f direction_world) noexcept {
+  return {grid.index_from_world.point(origin_world), grid.index_from_world.vector(direction_world)};
+}
+
+/// mu_t [1/mm] at a point, as the trackers see it.
+inline float extinction_at(const Medium& medium, Vec3f p_index) noexcept {
+  return classify_mu_t(medium.transfer, sample_trilinear(medium.grid, p_index));
+}
+
+}  // namespace voxlume

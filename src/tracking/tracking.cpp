@@ -1,0 +1,74 @@
+#include "tracking/tracking.h"
+
+#include "base/assert.h"
+
+namespace voxlume {
+namespace {
+
+/// Visits the tentative collisions of a ray: a Poisson process of rate mu_maj. `visit(t, p_index, mu_maj)`
+/// returns true to stop.
+template <class Visit>
+void visit_tentative_collisions(const Medium& medium, const IndexRay& ray, float t_near, float t_far, Rng& rng,
+                                Visit&& visit) noexcept {
+  MacrocellWalk walk(medium.majorant, ray.origin_index, ray.direction_index, t_near, t_far);
+  MajorantSegment segment;
+  float tau = sample_optical_depth(rng.next());
+  while (walk.next(segment)) {
+    if (segment.mu_maj <= 0) continue;
+    const float inverse_majorant = 1.0f / segment.mu_maj;
+    float t = segment.t_near;
+    for (;;) {
+      const float t_next = t + tau * inverse_majorant;
+      if (!(t_next < segment.t_far)) break;
+      t = t_next;
+      const Vec3f p = ray.origin_index + ray.direction_index * t;
+      if (visit(t, min(max(p, segment.cell.lower), segment.cell.upper), segment.mu_maj)) return;
+      tau = sample_optical_depth(rng.next());
+    }
+    const float left = tau - (segment.t_far - t) * segment.mu_maj;
+    tau = left > 0 ? left : 0;
+  }
+}
+
+void check_majorant(float mu_t, float mu_maj, TrackingCounters& counters) noexcept {
+  VOXLUME_ASSERT_LE(mu_t, mu_maj);
+  counters.majorant_violations += mu_t > mu_maj;
+}
+
+}  // namespace
+
+Collision sample_free_flight(const Medium& medium, const IndexRay& ray, float t_near, float t_far, Rng& rng,
+                             TrackingCounters& counters) noexcept {
+  Collision collision;
+  visit_tentative_collisions(medium, ray, t_near, t_far, rng, [&](float t, Vec3f p_index, float mu_maj) {
+    ++counters.steps;
+    const float value = sample_trilinear(medium.grid, p_index);
+    const float mu_t = classify_mu_t(medium.transfer, value);
+    check_majorant(mu_t, mu_maj, counters);
+    if (rng.next() * mu_maj >= mu_t) return false;
+    collision = {true, t, p_index, value};
+    return true;
+  });
+  return collision;
+}
+
+float estimate_transmittance(const Medium& medium, const IndexRay& ray, float t_near, float t_far, Rng& rng,
+                             TrackingCounters& counters) noexcept {
+  float transmittance = 1;
+  visit_tentative_collisions(medium, ray, t_near, t_far, rng, [&](float, Vec3f p_index, float mu_maj) {
+    ++counters.steps;
+    const float mu_t = extinction_at(medium, p_index);
+    check_majorant(mu_t, mu_maj, counters);
+    transmittance *= 1.0f - mu_t / mu_maj;
+    if (transmittance >= kRouletteTransmittance) return false;
+    if (rng.next() * kRouletteTransmittance >= transmittance) {
+      transmittance = 0;
+      return true;
+    }
+    transmittance = kRouletteTransmittance;
+    return false;
+  });
+  return transmittance;
+}
+
+}  // namespace voxlume

@@ -1,0 +1,39 @@
+#pragma once
+#include <cstdint>
+#include <limits>
+
+#include "sampling/rng.h"
+#include "tracking/medium.h"
+
+namespace voxlume {
+
+/// What a tracker did, for rates and tests.
+struct TrackingCounters {
+  std::uint64_t steps = 0;                ///< density look-ups (tentative collisions)
+  std::uint64_t majorant_violations = 0;  ///< look-ups above their majorant: 0 unless something is broken
+};
+
+/// Where a free flight ends.
+struct Collision {
+  bool real = false;      ///< false: left the interval without a collision
+  float t_mm = std::numeric_limits<float>::infinity();
+  Vec3f p_index;
+  float value = 0;        ///< interpolated data at p_index
+};
+
+/// Delta (Woodcock) tracking on [t_near, t_far] mm: t has density mu_t(t) T(t). The residual optical depth is
+/// carried from cell to cell, which is exact by memorylessness. Draws two numbers per look-up, and one more at the start.
+Collision sample_free_flight(const Medium& medium, const IndexRay& ray, float t_near, float t_far, Rng& rng,
+                             TrackingCounters& counters) noexcept;
+
+/// Ratio tracking on [t_near, t_far] mm: an unbiased estimate of the transmittance, in [0, 1]. Below
+/// kRouletteTransmittance Russian roulette ends it or raises it back to that.
+float estimate_transmittance(const Medium& medium, const IndexRay& ray, float t_near, float t_far, Rng& rng,
+                             TrackingCounters& counters) noexcept;
+
+constexpr float kRouletteTransmittance = 1e-3f;
+
+/// exp(1)-distributed optical depth from u in [0,1).
+inline float sample_optical_depth(float u) noexcept { return -std::log1p(-u); }
+
+}  // namespace voxlume

@@ -1,0 +1,229 @@
+#include "transfer/transfer_function.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "voxlume/error.h"
+
+namespace voxlume {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr int kBuckets = 1024;
+constexpr double kSaturatedOpacity = 0.9999;
+const Vec3d kDefaultAlbedo(0.8);
+
+[[noreturn]] void fail(std::size_t point, const std::string& message) {
+  throw Error(ErrorCode::kBadParameter, "/transfer/points/" + std::to_string(point), message);
+}
+
+void validate(const TransferDescription& d) {
+  if (!(d.reference_length_mm && *d.reference_length_mm > 0 && std::isfinite(*d.reference_length_mm)))
+    throw Error(ErrorCode::kBadParameter, "/transfer/reference_length_mm", "expected a length above 0 mm");
+  if (!(d.density_scale >= 0 && std::isfinite(d.density_scale)))
+    throw Error(ErrorCode::kBadParameter, "/transfer/density_scale", "expected a finite number of at least 0");
+  bool opacity = false, mu_t = false;
+  for (std::size_t i = 0; i < d.points.size(); ++i) {
+    const TransferPoint& p = d.points[i];
+    if (!std::isfinite(static_cast<float>(p.value))) fail(i, "value is not a finite 32-bit float");
+    if (i > 0 && p.value < d.points[i - 1].value) fail(i, "points must be sorted by value");
+    if (p.opacity && !(*p.opacity >= 0 && *p.opacity <= 1)) fail(i, "opacity must be in [0,1]");
+    if (p.mu_t_per_mm && !(*p.mu_t_per_mm >= 0 && std::isfinite(*p.mu_t_per_mm)))
+      fail(i, "mu_t_per_mm must be finite and at least 0");
+    opacity |= p.opacity.has_value();
+    mu_t |= p.mu_t_per_mm.has_value();
+    if (opacity && mu_t) fail(i, "a transfer function gives either opacity or mu_t_per_mm, not both");
+  }
+}
+
+/// A curve through (value, y) knots, constant outside them; equal values are a step.
+template <class Y>
+struct Curve {
+  std::vector<std::pair<double, Y>> knots;
+
+  /// The limit at `value` from below or from above.
+  Y limit(double value, bool from_above) const {
+    if (value < knots.front().first || (value == knots.front().first && !from_above)) return knots.front().second;
+    if (value > knots.back().first || (value == knots.back().first && from_above)) return knots.back().second;
+    const auto upper = from_above ? std::upper_bound(knots.begin(), knots.end(), value,
+                                                     [](double v, const auto& k) { return v < k.first; })
+                                  : std::lower_bound(knots.begin(), knots.end(), value,
+                                                     [](const auto& k, double v) { return k.first < v; });
+    const auto& [v0, y0] = *(upper - 1);
+    const auto& [v1, y1] = *upper;
+    return y0 + (y1 - y0) * ((value - v0) / (v1 - v0));
+  }
+};
+
+template <class Y, class Get>
+Curve<Y> collect(const std::vector<TransferPoint>& points, const Get& get, Y fallback) {
+  // Data is looked up as floats, so that values that are the same float are a step.
+  Curve<Y> curve;
+  for (const TransferPoint& p : points)
+    if (const std::optional<Y> y = get(p)) curve.knots.emplace_back(static_cast<float>(p.value), *y);
+  if (curve.knots.empty()) curve.knots.emplace_back(0.0, fallback);
+  return curve;
+}
+
+std::optional<Vec3d> to_vec(const std::optional<Color>& color) {
+  if (!color) return std::nullopt;
+  return Vec3d(color->linear[0], color->linear[1], color->linear[2]);
+}
+
+/// Adds the knots after (v0,o0) up to (v1,o1), so many that mu_t is linear in between to 1e-4 of itself in the middle,
+/// which is 2e-4 anywhere. Knots are floats.
+void refine_opacity(double v0, double o0, double v1, double o1, double reference_mm,
+                    std::vector<std::pair<double, double>>& out, int depth = 0) {
+  const double v = static_cast<float>(0.5 * (v0 + v1)), share = (v - v0) / (v1 - v0);
+  const double o = o0 + (o1 - o0) * share;
+  const double mu_t_0 = mu_t_from_opacity(o0, reference_mm), mu_t_1 = mu_t_from_opacity(o1, reference_mm);
+  const double exact = mu_t_from_opacity(o, reference_mm);
+  const double chord = mu_t_0 + (mu_t_1 - mu_t_0) * share;
+  const bool floats_between = v0 < v && v < v1;
+  if (!floats_between || depth > 24 || (depth > 0 && std::abs(chord - exact) <= 1e-4 * exact)) {
+    out.emplace_back(v1, mu_t_1);
+    return;
+  }
+  refine_opacity(v0, o0, v, o, reference_mm, out, depth + 1);
+  refine_opacity(v, o, v1, o1, reference_mm, out, depth + 1);
+}
+
+/// Puts a knot where the curve passes the saturated opacity, at which mu_t has a kink.
+void split_at_saturation(Curve<double>& opacity) {
+  for (std::size_t i = 1; i < opacity.knots.size(); ++i) {
+    const auto [v0, o0] = opacity.knots[i - 1];
+    const auto [v1, o1] = opacity.knots[i];
+    if (v0 == v1 || (o0 < kSaturatedOpacity) == (o1 < kSaturatedOpacity)) continue;
+    const double v = static_cast<float>(v0 + (v1 - v0) * ((kSaturatedOpacity - o0) / (o1 - o0)));
+    if (v <= v0 || v >= v1) continue;
+    const double o = o0 + (o1 - o0) * ((v - v0) / (v1 - v0));
+    opacity.knots.insert(opacity.knots.begin() + static_cast<std::ptrdiff_t>(i++), {v, o});
+  }
+}
+
+Curve<double> extinction_curve(const TransferDescription& d) {
+  Curve<double> mu_t = collect<double>(d.points, [](const auto& p) { return p.mu_t_per_mm; }, 0.0);
+  Curve<double> opacity = collect<double>(d.points, [](const auto& p) { return p.opacity; }, 0.0);
+  split_at_saturation(opacity);
+  if (std::any_of(d.points.begin(), d.points.end(), [](const auto& p) { return p.opacity.has_value(); })) {
+    mu_t.knots.clear();
+    for (std::size_t i = 0; i < opacity.knots.size(); ++i) {
+      const auto& [v1, o1] = opacity.knots[i];
+      if (i == 0 || opacity.knots[i - 1].first == v1) {
+        mu_t.knots.emplace_back(v1, mu_t_from_opacity(o1, *d.reference_length_mm));
+      } else {
+        refine_opacity(opacity.knots[i - 1].first, opacity.knots[i - 1].second, v1, o1, *d.reference_length_mm,
+                       mu_t.knots);
+      }
+    }
+  }
+  for (auto& [value, y] : mu_t.knots) y *= d.density_scale;
+  return mu_t;
+}
+
+float piece_value(const TransferPiece& piece, float value) {
+  return std::max(0.0f, piece.mu_t + piece.mu_t_slope * (value - piece.anchor));
+}
+
+}  // namespace
+
+double mu_t_from_opacity(double opacity, double reference_length_mm) {
+  return -std::log1p(-std::clamp(opacity, 0.0, kSaturatedOpacity)) / reference_length_mm;
+}
+
+TransferFunction::TransferFunction(const TransferDescription& d) {
+  validate(d);
+  reference_length_mm_ =
+      static_cast<float>(d.density_scale > 0 ? *d.reference_length_mm / d.density_scale : *d.reference_length_mm);
+  const Curve<double> mu_t = extinction_curve(d);
+  const Curve<Vec3d> albedo = collect<Vec3d>(d.points, [](const auto& p) { return to_vec(p.color); }, kDefaultAlbedo);
+  const Curve<Vec3d> emission = collect<Vec3d>(d.points, [](const auto& p) { return to_vec(p.emission); }, Vec3d(0));
+
+  std::vector<double> cuts;
+  for (const auto& knot : mu_t.knots) cuts.push_back(knot.first);
+  for (const auto& knot : albedo.knots) cuts.push_back(knot.first);
+  for (const auto& knot : emission.knots) cuts.push_back(knot.first);
+  std::sort(cuts.begin(), cuts.end());
+  cuts.erase(std::unique(cuts.begin(), cuts.end(),
+                         [](double a, double b) { return static_cast<float>(a) == static_cast<float>(b); }),
+             cuts.end());
+
+  // Piece i runs from cut i-1 to cut i; the first and last are constant.
+  for (std::size_t i = 0; i <= cuts.size(); ++i) {
+    const double v0 = i == 0 ? cuts.front() : cuts[i - 1];
+    const double v1 = i < cuts.size() ? cuts[i] : cuts.back();
+    const bool constant = i == 0 || i == cuts.size();
+    const double per_unit = constant ? 0.0 : 1.0 / (v1 - v0);
+    const auto slope = [&](auto lower, auto upper) { return (upper - lower) * per_unit; };
+    TransferPiece piece;
+    piece.start = i == 0 ? -kInfinity : static_cast<float>(v0);
+    piece.anchor = static_cast<float>(v0);
+    const bool above = i > 0;
+    piece.mu_t = static_cast<float>(mu_t.limit(v0, above));
+    piece.mu_t_slope = static_cast<float>(slope(mu_t.limit(v0, above), mu_t.limit(v1, false)));
+    piece.albedo = Vec3f(albedo.limit(v0, above));
+    piece.albedo_slope = Vec3f(slope(albedo.limit(v0, above), albedo.limit(v1, false)));
+    piece.emission = Vec3f(emission.limit(v0, above));
+    piece.emission_slope = Vec3f(slope(emission.limit(v0, above), emission.limit(v1, false)));
+    pieces_.push_back(piece);
+  }
+
+  const float origin = pieces_[0].anchor, width = pieces_.back().start - origin;
+  buckets_per_unit_ = width > 0 ? kBuckets / width : 0;
+  std::int32_t piece = 0;
+  for (int b = 0; b < kBuckets; ++b) {
+    const float value = origin + width * static_cast<float>(b) / kBuckets;
+    while (piece + 1 < static_cast<std::int32_t>(pieces_.size()) && value >= pieces_[piece + 1].start) ++piece;
+    bucket_piece_.push_back(piece);
+  }
+
+  std::vector<float> level;
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    const float end = i + 1 < pieces_.size() ? pieces_[i + 1].start : pieces_[i].anchor;
+    level.push_back(std::max(piece_value(pieces_[i], pieces_[i].anchor), piece_value(pieces_[i], end)));
+  }
+  for (std::size_t step = 1; !level.empty(); step *= 2) {
+    range_max_.push_back(level);
+    if (level.size() <= step) break;
+    std::vector<float> next;
+    for (std::size_t i = 0; i + step < level.size(); ++i) next.push_back(std::max(level[i], level[i + step]));
+    level = std::move(next);
+  }
+}
+
+const TransferView TransferFunction::view() const {
+  TransferView view;
+  view.pieces = pieces_.data();
+  view.piece_count = static_cast<std::int32_t>(pieces_.size());
+  view.bucket_piece = bucket_piece_.data();
+  view.bucket_count = kBuckets;
+  view.bucket_origin = pieces_[0].anchor;
+  view.buckets_per_unit = buckets_per_unit_;
+  view.reference_length_mm = reference_length_mm_;
+  return view;
+}
+
+float TransferFunction::max_mu_t(float lower, float upper) const {
+  if (!(lower <= upper)) return 0;
+  const TransferView tf = view();
+  const std::ptrdiff_t first = &find_piece(tf, lower) - tf.pieces;
+  const std::ptrdiff_t last = &find_piece(tf, upper) - tf.pieces;
+  float maximum = std::max(piece_value(pieces_[first], lower), piece_value(pieces_[last], upper));
+  if (first == last) return maximum;
+  // The end of the first piece and the start of the last are inside the range, as are all between.
+  maximum = std::max({maximum, piece_value(pieces_[first], pieces_[first + 1].start),
+                      piece_value(pieces_[last], pieces_[last].start)});
+  const std::ptrdiff_t count = last - first - 1;
+  if (count > 0) {
+    int level = 0;
+    while ((std::ptrdiff_t{2} << level) <= count) ++level;
+    maximum = std::max({maximum, range_max_[level][first + 1], range_max_[level][last - (std::ptrdiff_t{1} << level)]});
+  }
+  return maximum;
+}
+
+float TransferFunction::max_mu_t() const { return max_mu_t(-std::numeric_limits<float>::max(), std::numeric_limits<float>::max()); }
+
+}  // namespace voxlume
