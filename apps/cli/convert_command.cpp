@@ -1,0 +1,45 @@
+#include "cli/commands.h"
+#include "cli/scene_flags.h"
+#include "cli/terminal.h"
+#include "scene/open_volume.h"
+#include "voxlume/volume_io.h"
+
+namespace voxlume::cli {
+namespace {
+
+struct ConvertRequest {
+  std::string input, output;
+  SceneFlags flags;
+};
+
+int convert(const ConvertRequest& request) {
+  SceneDescription scene = scene_of_input(request.input);
+  request.flags.apply(scene);
+  ProgressLine progress;
+  progress.show("reading " + request.input);
+  Volume volume;
+  with_scene_name(request.input, [&] { volume = open_volume(scene.volume); });
+  progress.clear();
+  print_warnings(volume.warnings);
+  progress.show("writing " + request.output);
+  write_volume(volume, request.output);
+  return kDone;
+}
+
+}  // namespace
+
+void add_convert_command(CLI::App& program, Action& action) {
+  CLI::App* const command = program.add_subcommand("convert", "Write a volume in another format");
+  const auto request = std::make_shared<ConvertRequest>();
+  command->add_option("INPUT", request->input, "Volume file, DICOM folder, scene (.json) or \"phantom\"")->required();
+  command
+      ->add_option("OUTPUT", request->output,
+                   "By extension: .nrrd .nhdr .mha .mhd .nii .nii.gz .tif .vtk .h5 .vdb; FOLDER/ gets a DICOM series")
+      ->required();
+  request->flags.add_volume_flags_to(*command);
+  command->footer("\nExamples:\n  voxlume convert dicom-folder head.nrrd\n"
+                  "  voxlume convert block.bin block.nii.gz --raw 64x64x64,u8,1,1,1");
+  command->callback([&action, request] { action = [request] { return convert(*request); }; });
+}
+
+}  // namespace voxlume::cli

@@ -1,0 +1,45 @@
+#include <fmt/format.h>
+
+#include "cli/commands.h"
+#include "scene/presets.h"
+#include "scene/scene_schema.h"
+#include "voxlume/error.h"
+
+namespace voxlume::cli {
+
+void add_presets_command(CLI::App& program, Action& action) {
+  CLI::App* const command = program.add_subcommand("presets", "List the transfer function presets");
+  command->callback([&action] {
+    action = [] {
+      for (const Preset& preset : presets()) {
+        fmt::print("{:<16} {}{}\n", preset.name, preset.summary, preset.hounsfield ? " [HU]" : "");
+      }
+      return kDone;
+    };
+  });
+}
+
+void add_schema_command(CLI::App& program, Action& action) {
+  CLI::App* const command = program.add_subcommand("schema", "Print the JSON Schema of scene files");
+  const auto markdown = std::make_shared<bool>(false);
+  command->add_flag("--markdown", *markdown, "Print the reference of scene files in Markdown instead");
+  command->callback([&action, markdown] {
+    action = [markdown] {
+      fmt::print("{}", *markdown ? scene_reference_markdown() : scene_schema());
+      return kDone;
+    };
+  });
+}
+
+void add_view_command(CLI::App& program, Action& action) {
+  CLI::App* const command = program.add_subcommand("view", "Web viewer (not built yet)");
+  command->allow_extras();
+  command->callback([&action] {
+    action = []() -> int {
+      throw Error(ErrorCode::kUnsupported, "",
+                  "view is not built yet; available: render, info, convert, compare, presets, schema");
+    };
+  });
+}
+
+}  // namespace voxlume::cli

@@ -1,0 +1,277 @@
+#include "cli/scene_flags.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <iterator>
+
+#include "scene/field_types.h"
+#include "scene/scene_file.h"
+#include "voxlume/error.h"
+#include "voxlume/volume_io.h"
+
+namespace voxlume::cli {
+namespace {
+
+using Apply = void (*)(SceneDescription& scene, const std::string& text, const std::string& flag);
+
+/// A flag and the field it sets. Its help is the field's own unless `help` says more.
+struct Row {
+  const char* flag;
+  const char* value;            ///< what the help calls its value; nullptr for flags without one
+  const char* address;          ///< field set, or that explains it
+  const char* help = nullptr;
+  Apply apply = nullptr;        ///< nullptr: set_scene_field(address)
+};
+
+[[noreturn]] void refuse(const std::string& flag, const std::string& text, const std::string& expected) {
+  throw Error(ErrorCode::kBadParameter, flag, "found " + quote_text(text) + ", expected " + expected);
+}
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  for (std::size_t start = 0;;) {
+    const std::size_t end = text.find(separator, start);
+    parts.push_back(text.substr(start, end - start));
+    if (end == std::string::npos) return parts;
+    start = end + 1;
+  }
+}
+
+void apply_size(SceneDescription& scene, const std::string& text, const std::string& flag) {
+  const auto parts = split(text, 'x');
+  if (parts.size() != 2) refuse(flag, text, "WxH in pixels, such as 800x600");
+  set_scene_field(scene, "/image/width", parts[0], flag);
+  set_scene_field(scene, "/image/height", parts[1], flag);
+}
+
+void apply_preset(SceneDescription& scene, const std::string& text, const std::string& flag) {
+  if (text.empty()) refuse(flag, text, "a name that voxlume presets lists");
+  set_scene_field(scene, "/transfer/preset", text, flag);
+  scene.transfer.points.clear();  // the scene's own would win over the preset's
+}
+
+void apply_camera(SceneDescription& scene, const std::string& text, const std::string& flag) {
+  const auto parts = split(text, ',');
+  if (parts.size() != 2 && parts.size() != 3) refuse(flag, text, "azimuth,elevation[,zoom], angles in degrees");
+  set_scene_field(scene, "/camera/azimuth_deg", parts[0], flag);
+  set_scene_field(scene, "/camera/elevation_deg", parts[1], flag);
+  if (parts.size() == 3) set_scene_field(scene, "/camera/zoom", parts[2], flag);
+  scene.camera.eye_mm.reset();  // would win over the angles
+  scene.camera.up.reset();
+}
+
+void apply_environment(SceneDescription& scene, const std::string& text, const std::string& flag) {
+  // A constant environment's colour is its radiance, and no tint for a picture.
+  if (scene.environment && scene.environment->image.empty()) {
+    scene.environment->color = {};
+    scene.environment->intensity = 1;
+  }
+  set_scene_field(scene, "/environment/image", text, flag);
+}
+
+void apply_background(SceneDescription& scene, const std::string& text, const std::string& flag) {
+  BackgroundDescription background;
+  if (text == "env") {
+    background.kind = BackgroundKind::kEnvironment;
+  } else if (text == "transparent") {
+    background.kind = BackgroundKind::kTransparent;
+  } else if (text.starts_with('#') || split(text, ',').size() == 3) {
+    scene.background = background;
+    set_scene_field(scene, "/background/color", text, flag);
+    return;
+  } else {
+    refuse(flag, text, "env, transparent, \"#rrggbb\" or R,G,B in [0, 1] (sRGB)");
+  }
+  scene.background = background;
+}
+
+void apply_clip(SceneDescription& scene, const std::string& text, const std::string& flag) {
+  const char* const kExpected = "x0:x1,y0:y1,z0:z1 in LPS mm; either side of a colon may be empty";
+  const auto parts = split(text, ',');
+  if (parts.size() != 3) refuse(flag, text, kExpected);
+  ClipDescription clip;
+  clip.blocks_light = scene.clip && scene.clip->blocks_light;
+  scene.clip = clip;
+  const char* const kAddresses[] = {"/clip/x_mm/", "/clip/y_mm/", "/clip/z_mm/"};
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto ends = split(parts[a], ':');
+    if (ends.size() != 2) refuse(flag, text, kExpected);
+    for (std::size_t e = 0; e < 2; ++e) {
+      if (!ends[e].empty()) set_scene_field(scene, kAddresses[a] + std::to_string(e), ends[e], flag);
+    }
+  }
+  for (const auto& ends : {scene.clip->x_mm, scene.clip->y_mm, scene.clip->z_mm}) {
+    if (!(ends[0] < ends[1])) refuse(flag, text, "the lower end first");
+  }
+}
+
+void apply_labels(SceneDescription& scene, const std::string& text, const std::string& flag) {
+  if (text.empty()) refuse(flag, text, "a label volume");
+  set_scene_field(scene, "/labels/path", text, flag);
+  scene.labels->names.clear();  // they belong to the scene's own label volume
+}
+
+void apply_raw(SceneDescription& scene, const std::string& text, const std::string& flag) {
+  try {
+    parse_raw_spec(text);
+  } catch (const Error& error) {
+    throw Error(error.code(), flag, error.message());
+  }
+  set_scene_field(scene, "/volume/raw", text, flag);
+}
+
+void apply_visibility_lights(SceneDescription&, const std::string& text, const std::string& flag) {
+  if (text == "off") return;
+  if (text != "first" && text != "all") refuse(flag, text, "one of off, first, all");
+  throw Error(ErrorCode::kUnsupported, flag, text + " is not built yet; available: off");
+}
+
+void not_built(SceneDescription&, const std::string&, const std::string&) {
+  throw Error(ErrorCode::kUnsupported, "", "is not built yet");
+}
+
+// The first rows are volume flags, which other commands have as well.
+constexpr std::size_t kVolumeRows = 2;
+constexpr Row kRows[] = {
+    {"--raw", "SPEC", "/volume/raw", nullptr, apply_raw},
+    {"--spacing", "X,Y,Z", "/volume/spacing_mm"},
+    {"--preset", "NAME", "/transfer/preset", "Transfer function: a name that `voxlume presets` lists", apply_preset},
+    {"--reference-length", "MM", "/transfer/reference_length_mm"},
+    {"--labels", "FILE", "/labels/path", "Label volume whose colors replace the transfer function's", apply_labels},
+    {"--size", "WxH", "/image/width", "Picture size in pixels", apply_size},
+    {"--spp", "N", "/image/spp"},
+    {"--seconds", "S", "/image/seconds"},
+    {"--noise", "X", "/image/noise"},
+    {"--seed", "N", "/render/seed"},
+    {"--max-scatter", "N", "/render/max_scatter"},
+    {"--shading", "NAME", "/material/shading",
+     "coexistence, er, phase or brdf: surface and medium together, one of the two by chance, or one alone"},
+    {"--roughness", "R", "/material/roughness"},
+    {"--anisotropy", "G", "/material/anisotropy"},
+    {"--camera", "AZ,EL[,ZOOM]", "/camera/azimuth_deg",
+     "Degrees; 0,0 looks at the face, azimuth grows toward the patient's left, elevation toward the head; zoom 1 fits",
+     apply_camera},
+    {"--projection", "NAME", "/camera/projection", "perspective or orthographic"},
+    {"--fov", "DEG", "/camera/vertical_fov_deg"},
+    {"--env", "FILE", "/environment/image", nullptr, apply_environment},
+    {"--background", "COLOR", "/background/kind", "env, transparent, \"#rrggbb\" or R,G,B in [0, 1] (sRGB)",
+     apply_background},
+    {"--clip", "X0:X1,Y0:Y1,Z0:Z1", "/clip/x_mm", "Keep a box, LPS mm; either side of a colon may be empty",
+     apply_clip},
+    {"--clip-blocks-light", nullptr, "/clip/blocks_light"},
+    {"--exposure", "EV", "/image/exposure_ev"},
+    {"--tone-curve", "NAME", "/image/tone_curve", "PNG: filmic or srgb"},
+    {"--aov", "LIST", "/image/aovs", "Further layers of an EXR: alpha,depth,normal,albedo,samples,variance"},
+    {"--light-sampling", "NAME", "/render/light_sampling", "mis, light or direction: how scatterings gather light"},
+    {"--denoise", "NAME", "/render/denoise", "none"},
+    {"--simd", "NAME", "/render/simd", "auto or scalar"},
+    {"--accel", "NAME", "/render/accelerator", "auto, none or macrocell"},
+    {"--important", "RANGE", "/render", "Not built yet", not_built},
+    {"--visibility", "P,Q,R,LAMBDA", "/render", "Not built yet", not_built},
+    {"--visibility-lights", "NAME", "/render", "off (first, all: not built yet)", apply_visibility_lights},
+    {"--turntable", "N", "/camera", "Not built yet", not_built},
+};
+
+void apply_setting(SceneDescription& scene, const std::string& setting) {
+  const std::size_t equals = setting.find('=');
+  if (equals == std::string::npos) refuse("--set", setting, "ADDRESS=VALUE, such as /material/specular=0.2");
+  set_scene_field(scene, setting.substr(0, equals), setting.substr(equals + 1), "--set " + setting.substr(0, equals));
+}
+
+bool is_stop_rule(const Row& row) {
+  const std::string_view address = row.address;
+  return address == "/image/spp" || address == "/image/seconds" || address == "/image/noise";
+}
+
+}  // namespace
+
+void SceneFlags::add(CLI::App& command, std::size_t index) {
+  const Row& row = kRows[index];
+  const std::string help = row.help ? row.help : describe_scene_field(row.address);
+  if (!row.value) {
+    command.add_flag_function(row.flag, [this, index](std::int64_t) { given_.push_back({index, "true"}); }, help);
+    return;
+  }
+  command
+      .add_option_function<std::string>(
+          row.flag, [this, index](const std::string& text) { given_.push_back({index, text}); }, help)
+      ->type_name(row.value);
+}
+
+void SceneFlags::add_volume_flags_to(CLI::App& command) {
+  for (std::size_t i = 0; i < kVolumeRows; ++i) add(command, i);
+}
+
+void SceneFlags::add_to(CLI::App& command) {
+  for (std::size_t i = 0; i < std::size(kRows); ++i) add(command, i);
+  command.add_option("--set", settings_, "Any field of the scene by its address, such as /material/specular=0.2")
+      ->type_name("ADDRESS=VALUE")
+      ->take_all()
+      ->allow_extra_args(false);
+}
+
+bool SceneFlags::given(const std::string& flag) const {
+  return std::any_of(given_.begin(), given_.end(), [&](const Given& g) { return kRows[g.row].flag == flag; });
+}
+
+void SceneFlags::apply(SceneDescription& scene) const {
+  // One stop rule on the command line replaces all of the scene's.
+  if (std::any_of(given_.begin(), given_.end(), [](const Given& g) { return is_stop_rule(kRows[g.row]); })) {
+    scene.image.spp.reset();
+    scene.image.seconds.reset();
+    scene.image.noise.reset();
+  }
+  for (const Given& g : given_) {
+    const Row& row = kRows[g.row];
+    try {
+      if (row.apply) {
+        row.apply(scene, g.text, row.flag);
+      } else {
+        set_scene_field(scene, row.address, g.text, row.flag);
+      }
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::kUnsupported) throw;
+      throw Error(error.code(), "", fmt::format("{} {}", row.flag, error.message()));
+    }
+  }
+  for (const std::string& setting : settings_) apply_setting(scene, setting);
+}
+
+namespace {
+
+bool is_scene_file(const std::string& input) {
+  std::string extension = std::filesystem::path(input).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension == ".json";
+}
+
+/// Whether `where` is the address of a field, and not an absolute path.
+bool is_scene_address(const std::string& where) {
+  if (!where.starts_with('/')) return false;
+  const auto keys = field_keys<SceneDescription>();
+  const std::string first = where.substr(1, where.find('/', 1) - 1);
+  return std::find(keys.begin(), keys.end(), first) != keys.end();
+}
+
+}  // namespace
+
+SceneDescription scene_of_input(const std::string& input) {
+  if (is_scene_file(input)) return read_scene(input);
+  SceneDescription scene;
+  set_scene_field(scene, "/volume/path", input, "INPUT");
+  return scene;
+}
+
+void with_scene_name(const std::string& input, const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    if (!is_scene_file(input) || !is_scene_address(error.where())) throw;
+    throw Error(error.code(), input + ": " + error.where(), error.message());
+  }
+}
+
+}  // namespace voxlume::cli

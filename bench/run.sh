@@ -1,0 +1,17 @@
+#!/usr/bin/env bash
+# Builds and runs the benchmarks; JSON into out/bench/, named after the time. [ROUNDS]
+set -euo pipefail
+cd "$(dirname "$0")/.."
+ninja -C build/release voxlume_bench >&2
+mkdir -p out/bench
+out=out/bench/$(date +%Y%m%d-%H%M%S).json
+build/release/bench/voxlume_bench bench/scenes "${1:-5}" > "$out.part"
+machine=$(sed -n 's/^model name\s*: //p' /proc/cpuinfo | head -n 1)
+python3 - "$out.part" "$out" "$machine" <<'P' 2>/dev/null || mv "$out.part" "$out"
+import json, sys
+data = json.load(open(sys.argv[1])); data = {"machine": sys.argv[3], **data}
+json.dump(data, open(sys.argv[2], "w"), indent=2)
+P
+rm -f "$out.part"
+cat "$out"
+echo "bench: $out" >&2

@@ -1,0 +1,89 @@
+#include "render/film_image.h"
+
+
+#include "voxlume/error.h"
+
+namespace voxlume {
+namespace {
+
+// One row of the table in voxlume/image.h.
+struct LayerKind {
+  const char* name;
+  std::vector<std::string> channels;
+  FilmLayers needs;
+  Vec3d (*value)(const Film&, int x, int y);  // as many components as channels
+};
+
+const std::vector<LayerKind>& layer_kinds() {
+  static const std::vector<LayerKind> kinds = {
+      {"alpha", {"Y"}, {}, [](const Film& f, int x, int y) { return Vec3d(f.alpha(x, y)); }},
+      {"depth", {"Z"}, {.depth = true}, [](const Film& f, int x, int y) { return Vec3d(f.depth_mm(x, y)); }},
+      {"normal", {"X", "Y", "Z"}, {.normal = true}, [](const Film& f, int x, int y) { return f.normal(x, y); }},
+      {"albedo", {"R", "G", "B"}, {.albedo = true}, [](const Film& f, int x, int y) { return f.albedo(x, y); }},
+      {"samples", {"Y"}, {}, [](const Film& f, int x, int y) { return Vec3d(f.sample_count(x, y)); }},
+      {"variance", {"Y"}, {}, [](const Film& f, int x, int y) { return Vec3d(f.variance_of_mean(x, y)); }},
+  };
+  return kinds;
+}
+
+const LayerKind& layer_kind(const std::string& name) {
+  std::string known;
+  for (const LayerKind& kind : layer_kinds()) {
+    if (name == kind.name) return kind;
+    known += (known.empty() ? "" : ", ") + std::string(kind.name);
+  }
+  throw Error(ErrorCode::kBadParameter, "", "unknown AOV \"" + name + "\"; expected one of " + known);
+}
+
+ImageLayer make_layer(const Film& film, const LayerKind& kind) {
+  ImageLayer layer{kind.name, kind.channels, {}};
+  layer.values.reserve(film.pixel_count() * kind.channels.size());
+  for (int y = 0; y < film.height(); ++y) {
+    for (int x = 0; x < film.width(); ++x) {
+      const Vec3d value = kind.value(film, x, y);
+      for (int c = 0; c < static_cast<int>(kind.channels.size()); ++c) {
+        layer.values.push_back(static_cast<float>(value[c]));
+      }
+    }
+  }
+  return layer;
+}
+
+}  // namespace
+
+FilmLayers film_layers(const std::vector<std::string>& aovs) {
+  FilmLayers layers;
+  for (const std::string& name : aovs) {
+    const FilmLayers needs = layer_kind(name).needs;
+    layers.depth |= needs.depth;
+    layers.normal |= needs.normal;
+    layers.albedo |= needs.albedo;
+  }
+  return layers;
+}
+
+Image image_from_film(const Film& film, const std::vector<std::string>& aovs, bool transparent) {
+  Image image(film.width(), film.height());
+  for (int y = 0; y < film.height(); ++y) {
+    for (int x = 0; x < film.width(); ++x) {
+      const Vec3f radiance(film.mean(x, y));
+      float* pixel = image.pixel(x, y);
+      pixel[0] = radiance.x;
+      pixel[1] = radiance.y;
+      pixel[2] = radiance.z;
+      pixel[3] = transparent ? static_cast<float>(film.alpha(x, y)) : 1.0f;
+    }
+  }
+  for (const std::string& name : aovs) {
+    const LayerKind& kind = layer_kind(name);
+    const FilmLayers has = film.layers();
+    if ((kind.needs.depth && !has.depth) || (kind.needs.normal && !has.normal) ||
+        (kind.needs.albedo && !has.albedo)) {
+      throw Error(ErrorCode::kBadParameter, "", "the film does not keep the AOV \"" + name + "\"");
+    }
+    if (image.layer(name) == nullptr) image.layers.push_back(make_layer(film, kind));
+  }
+  return image;
+}
+
+}  // namespace voxlume

@@ -1,0 +1,137 @@
+#include "scene/compile.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "camera/camera.h"
+#include "grid/grid_view.h"
+#include "image_io/image_io.h"
+#include "scene/resolve.h"
+#include "voxlume/error.h"
+#include "voxlume/volume_io.h"
+
+namespace voxlume {
+namespace {
+
+constexpr std::size_t kMaxLabel = 1u << 20;
+
+Vec3f to_vec(const Color& color) { return {color.linear[0], color.linear[1], color.linear[2]}; }
+
+int macrocell_edge(const RenderDescription& render, const GridView& grid) {
+  if (render.accelerator == "none") return std::max({grid.size[0], grid.size[1], grid.size[2], 1});
+  if (render.accelerator != "auto" && render.accelerator != "macrocell")
+    throw Error(ErrorCode::kUnsupported, "/render/accelerator",
+                "\"" + render.accelerator + "\" is not built yet; available: auto, none, macrocell");
+  return render.macrocell_voxels > 0 ? render.macrocell_voxels : default_macrocell_voxels(grid);
+}
+
+void check_built(const RenderDescription& render) {
+  if (render.simd != "auto" && render.simd != "scalar")
+    throw Error(ErrorCode::kUnsupported, "/render/simd",
+                "\"" + render.simd + "\" is not built yet; available: auto, scalar");
+  if (render.denoise != "none")
+    throw Error(ErrorCode::kUnsupported, "/render/denoise",
+                "\"" + render.denoise + "\" is not built yet; available: none");
+}
+
+LightSampling light_sampling(const std::string& name) {
+  if (name == "mis") return LightSampling::kMis;
+  if (name == "light") return LightSampling::kLight;
+  if (name == "direction") return LightSampling::kDirection;
+  throw Error(ErrorCode::kBadParameter, "/render/light_sampling",
+              "unknown \"" + name + "\"; expected mis, light or direction");
+}
+
+}  // namespace
+
+CompiledScene::CompiledScene(SceneDescription description, Volume volume, const VolumeStatistics& statistics)
+    : description_(std::move(description)),
+      volume_(std::move(volume)),
+      transfer_(description_.transfer),
+      majorants_(make_grid_view(volume_), macrocell_edge(description_.render, make_grid_view(volume_))) {
+  check_built(description_.render);
+  compile_medium();
+  compile_scattering(statistics);
+  compile_labels();
+  compile_lights_and_camera();
+  compile_image();
+}
+
+void CompiledScene::compile_medium() {
+  const auto start = std::chrono::steady_clock::now();
+  majorants_.update(transfer_);
+  majorant_build_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  view_.medium = {make_grid_view(volume_), transfer_.view(), majorants_.view()};
+  view_.domain_index = view_.medium.grid.index_box();
+  view_.clip_world = {Vec3f(-1e30f), Vec3f(1e30f)};
+  if (const auto& clip = description_.clip) {
+    view_.clip_world = {Vec3f(Vec3d(clip->x_mm[0], clip->y_mm[0], clip->z_mm[0])),
+                        Vec3f(Vec3d(clip->x_mm[1], clip->y_mm[1], clip->z_mm[1]))};
+    view_.clip_blocks_light = clip->blocks_light;
+  }
+}
+
+void CompiledScene::compile_scattering(const VolumeStatistics& statistics) {
+  const MaterialDescription& material = description_.material;
+  ScatteringView& out = view_.scattering;
+  out.shading = material.shading;
+  out.surface_share = material.surface_share;
+  out.gradient_factor = static_cast<float>(material.gradient_factor);
+  out.opacity_modulated = material.opacity_modulated;
+  out.g = static_cast<float>(material.anisotropy);
+  out.alpha = static_cast<float>(material.roughness * material.roughness);
+  out.f0 = static_cast<float>(0.08 * material.specular);
+  out.inverse_gradient_scale = 1.0f / statistics.gradient_p999;
+}
+
+void CompiledScene::compile_labels() {
+  if (!description_.labels) return;
+  const LabelsDescription& labels = *description_.labels;
+  label_volume_ = read_volume(labels.path);
+  warnings_.insert(warnings_.end(), label_volume_->warnings.begin(), label_volume_->warnings.end());
+  const GridView grid = make_grid_view(*label_volume_);
+  const VolumeStatistics statistics = compute_statistics(grid);
+  const bool integer = label_volume_->type != VoxelType::kF32 && label_volume_->type != VoxelType::kF64;
+  if (!integer && std::any_of(statistics.histogram.begin(), statistics.histogram.end(),
+                              [](const auto& bin) { return bin.first != std::floor(bin.first); }))
+    throw Error(ErrorCode::kBadFormat, labels.path, "expected a label volume of whole numbers, found fractions");
+  if (statistics.upper > static_cast<float>(kMaxLabel))
+    throw Error(ErrorCode::kBadFormat, labels.path,
+                "expected labels up to " + std::to_string(kMaxLabel) + ", found " + std::to_string(statistics.upper));
+  const auto count = static_cast<std::size_t>(std::max(statistics.upper, 0.0f)) + 1;
+  label_table_ = read_label_table(labels.path, labels.names, count);
+  view_.labels = {grid, label_table_->colors.data(), static_cast<std::int32_t>(count),
+                  static_cast<float>(labels.strength)};
+}
+
+void CompiledScene::compile_lights_and_camera() {
+  const BoundingSphere sphere = visible_sphere(volume_, description_.clip);
+  const Vec3f center(Vec3d(sphere.center_mm[0], sphere.center_mm[1], sphere.center_mm[2]));
+  const auto radius = static_cast<float>(sphere.radius_mm);
+  view_.camera = compile_camera(description_.camera, center, radius, description_.image.width, description_.image.height);
+
+  const EnvironmentDescription& environment = *description_.environment;
+  std::optional<EnvironmentImage> picture;
+  if (!environment.image.empty()) picture = read_environment(environment.image);
+  lights_.emplace(*description_.lights, environment, picture ? &*picture : nullptr, view_frame(view_.camera),
+                  SceneSphere{center, radius});
+  view_.lights = lights_->view();
+  if (environment.ambient) view_.ambient = lights_->mean_environment_radiance();
+  view_.background = description_.background->kind;
+  view_.background_color = to_vec(description_.background->color);
+}
+
+void CompiledScene::compile_image() {
+  const ImageDescription& image = description_.image;
+  const RenderDescription& render = description_.render;
+  view_.width = image.width;
+  view_.height = image.height;
+  view_.filter = image.filter;
+  view_.filter_radius_px = static_cast<float>(image.filter_radius_px);
+  view_.seed = render.seed;
+  view_.frame = render.frame;
+  view_.max_scatter = render.max_scatter;
+  view_.light_sampling = light_sampling(render.light_sampling);
+}
+
+}  // namespace voxlume

@@ -1,0 +1,37 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "grid/volume_statistics.h"
+#include "voxlume/scene.h"
+#include "voxlume/volume.h"
+
+namespace voxlume {
+
+/// A named transfer function. Those for CT are written in HU; the others take their data values from the volume.
+struct Preset {
+  std::string_view name;
+  std::string_view summary;  ///< one line for `voxlume presets`
+  bool hounsfield;           ///< written in HU
+  std::vector<TransferPoint> (*points)(const VolumeStatistics&);
+};
+
+/// Every preset, in the order in which they are listed.
+const std::vector<Preset>& presets();
+
+/// Throws Error kBadParameter, naming the nearest preset, when there is none of that name.
+const Preset& find_preset(std::string_view name);
+
+/// The preset used when none is named: ct-bone for data in HU (modality CT, or signed with air near -1000), mri-head
+/// for MR and NIfTI, else generic.
+const Preset& automatic_preset(const Volume& volume, const VolumeStatistics& statistics);
+
+/// The reference length opacities are drawn for when none is given [mm]: 1 for HU presets, else 1/256 of the
+/// volume's longest side.
+double default_reference_length_mm(const Preset& preset, const Volume& volume);
+
+/// Otsu's threshold between background and matter: maximises the between-class variance of the histogram.
+double otsu_threshold(const VolumeStatistics& statistics);
+
+}  // namespace voxlume

@@ -1,0 +1,150 @@
+#include "scene/validate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/field_check.h"
+#include "voxlume/error.h"
+
+namespace voxlume {
+namespace {
+
+[[noreturn]] void refuse(const std::string& where, const std::string& message) {
+  throw Error(ErrorCode::kBadParameter, where, message);
+}
+
+std::string expected_number(const char* noun, const FieldInfo& info) {
+  const std::string range = range_text(info.range);
+  if (range.empty()) return fmt::format("a finite {} of magnitude at most {}", noun, kLargestNumber);
+  return fmt::format("a {} {}", noun, range);
+}
+
+void check_points(const TransferDescription& transfer, const std::string& where) {
+  const std::string list = child_address(where, "points");
+  bool by_opacity = false, by_extinction = false;
+  for (std::size_t i = 0; i < transfer.points.size(); ++i) {
+    const TransferPoint& point = transfer.points[i];
+    const std::string address = child_address(list, std::to_string(i));
+    if (i > 0 && point.value < transfer.points[i - 1].value) {
+      refuse(address, fmt::format("found value {} after {}, expected points sorted by value", point.value,
+                                  transfer.points[i - 1].value));
+    }
+    by_opacity |= point.opacity.has_value();
+    by_extinction |= point.mu_t_per_mm.has_value();
+    if (by_opacity && by_extinction) {
+      refuse(address, "found both opacity and mu_t_per_mm in one transfer function, expected one of them");
+    }
+  }
+}
+
+void check_direction(const std::optional<Double3>& v, const std::string& where) {
+  if (v && std::hypot((*v)[0], (*v)[1], (*v)[2]) < 1e-12) refuse(where, "found a zero vector, expected a direction");
+}
+
+void check_light(const LightDescription& light, const std::string& where) {
+  const std::string kind(enum_word(light.kind));
+  const auto need = [&](bool given, const char* key) {
+    if (!given) refuse(where, fmt::format("missing key \"{}\", which a {} light needs", key, kind));
+  };
+  const auto no_use = [&](bool given, const char* key) {
+    if (given) refuse(child_address(where, key), fmt::format("a {} light has none", kind));
+  };
+  const bool directional = light.kind == LightKind::kDirectional, rect = light.kind == LightKind::kRect;
+  if (directional) need(light.direction.has_value(), "direction");
+  if (!directional) need(light.position_mm.has_value(), "position_mm");
+  no_use(!directional && light.direction, "direction");
+  no_use(directional && light.position_mm, "position_mm");
+  no_use(!rect && light.target_mm, "target_mm");
+  no_use(!rect && light.up, "up");
+  check_direction(light.direction, child_address(where, "direction"));
+  check_direction(light.up, child_address(where, "up"));
+  if (rect && light.target_mm && *light.target_mm == *light.position_mm) {
+    refuse(child_address(where, "target_mm"), "found the light's own position, expected another point");
+  }
+}
+
+void check_clip(const ClipDescription& clip, const std::string& where) {
+  const auto check = [&](const std::array<double, 2>& range, const char* key) {
+    if (!(range[0] < range[1])) {
+      refuse(child_address(where, key), fmt::format("found [{}, {}], expected lower < upper", range[0], range[1]));
+    }
+  };
+  check(clip.x_mm, "x_mm");
+  check(clip.y_mm, "y_mm");
+  check(clip.z_mm, "z_mm");
+}
+
+void check_camera(const CameraDescription& camera, const std::string& where) {
+  check_direction(camera.up, child_address(where, "up"));
+  if (camera.eye_mm && camera.target_mm && *camera.eye_mm == *camera.target_mm) {
+    refuse(child_address(where, "eye_mm"), "found the camera's target, expected another point");
+  }
+}
+
+void check_image(const ImageDescription& image, const std::string& where) {
+  for (std::size_t i = 0; i < image.aovs.size(); ++i) {
+    if (std::find(image.aovs.begin(), image.aovs.begin() + i, image.aovs[i]) != image.aovs.begin() + i) {
+      refuse(child_address(child_address(where, "aovs"), std::to_string(i)),
+             "found " + quote_text(image.aovs[i]) + " twice");
+    }
+  }
+}
+
+}  // namespace
+
+std::string child_address(const std::string& where, std::string_view key) {
+  std::string out = where;
+  if (out.empty() || out.back() != '/') out += '/';
+  return out += key;
+}
+
+void check_field(double value, const FieldInfo& info, const std::string& where) {
+  if (info.range.contains(value)) return;
+  refuse(where, fmt::format("found {}, expected {}", value, expected_number("number", info)));
+}
+
+void check_integer(std::int64_t value, const FieldInfo& info, const std::string& where) {
+  if (info.range.contains(static_cast<double>(value))) return;
+  refuse(where, fmt::format("found {}, expected {}", value, expected_number("whole number", info)));
+}
+
+void check_field(const Color& value, const FieldInfo& info, const std::string& where) {
+  for (const float channel : value.linear) {
+    if (info.range.contains(channel)) continue;
+    refuse(where, fmt::format("found a linear channel of {}, expected {}", channel, expected_number("number", info)));
+  }
+}
+
+void check_field(const std::string& value, const FieldInfo& info, const std::string& where) {
+  if (!info.words) return;
+  const auto& available = info.words->available;
+  if (std::find(available.begin(), available.end(), value) != available.end()) return;
+  const auto& planned = info.words->planned;
+  if (std::find(planned.begin(), planned.end(), value) != planned.end()) {
+    throw Error(ErrorCode::kUnsupported, where, value + " is not built yet; available: " + join_words(available));
+  }
+  refuse(where, "found " + quote_text(value) + ", expected one of " + join_words(available));
+}
+
+void fail_count(std::size_t count, const FieldInfo& info, const std::string& where) {
+  refuse(where, fmt::format("found {} elements, expected at most {}", count, info.max_count));
+}
+
+void validate_scene(const SceneDescription& scene, const std::string& where) {
+  check_field(scene, FieldInfo{.key = "", .doc = ""}, where);
+  const auto at = [&](const char* key) { return child_address(where, key); };
+  check_points(scene.transfer, at("transfer"));
+  if (scene.labels && scene.labels->path.empty()) refuse(at("labels/path"), "found \"\", expected a file");
+  if (scene.lights) {
+    for (std::size_t i = 0; i < scene.lights->size(); ++i) {
+      check_light((*scene.lights)[i], child_address(at("lights"), std::to_string(i)));
+    }
+  }
+  check_camera(scene.camera, at("camera"));
+  if (scene.clip) check_clip(*scene.clip, at("clip"));
+  check_image(scene.image, at("image"));
+}
+
+}  // namespace voxlume

@@ -1,0 +1,161 @@
+#include "volume_io/isolated_read.h"
+
+#include <fmt/format.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <mutex>
+
+#include "volume_io/child_limits.h"
+#include "volume_io/fail.h"
+#include "volume_io/memory_limit.h"
+#include "volume_io/read_result.h"
+#include "volume_io/staged_read.h"
+
+namespace voxlume {
+namespace {
+
+/// A file descriptor, closed at the end.
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor() { reset(); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int get() const { return number_; }
+  void reset() {
+    if (number_ >= 0) close(number_);
+    number_ = -1;
+  }
+
+ private:
+  int number_;
+};
+
+void write_all(int to, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = write(to, text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return;
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+/// The child's whole life. Never returns: exit handlers and destructors of the parent's objects must not run.
+[[noreturn]] void run_child(const std::filesystem::path& path, const ReadOptions& options, int voxel_file, int result) {
+  std::string line;
+  try {
+    enter_child_limits(path);
+    const Volume volume = read_staged(path, options, [&](std::uint64_t bytes, std::uint64_t working_bytes) {
+      allow_voxel_memory(bytes, working_bytes);
+      if (ftruncate(voxel_file, static_cast<off_t>(bytes)) != 0) {
+        fail(ErrorCode::kOutOfMemory, path, fmt::format("cannot allocate {} bytes of shared memory", bytes));
+      }
+      void* start = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, voxel_file, 0);
+      if (start == MAP_FAILED) fail(ErrorCode::kOutOfMemory, path, fmt::format("cannot map {} bytes", bytes));
+      return std::shared_ptr<void>(start, [](void*) {});
+    });
+    line = encode_volume(volume);
+  } catch (const Error& error) {
+    line = encode_error(error);
+  } catch (...) {
+    _exit(kChildFailed);
+  }
+  write_all(result, line);
+  _exit(0);
+}
+
+struct ChildOutcome {
+  std::string line;
+  int status = 0;        ///< as waitpid gives it; 0 when the child cannot be waited for
+  bool timed_out = false;
+};
+
+/// Reads what the child says until it closes the pipe, then waits for its end.
+ChildOutcome await_child(pid_t child, int result, std::chrono::seconds limit) {
+  ChildOutcome outcome;
+  const auto deadline = std::chrono::steady_clock::now() + limit;
+  char text[4096];
+  for (;;) {
+    const auto left =
+        std::chrono::duration_cast<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now()).count();
+    pollfd waiting{result, POLLIN, 0};
+    const int ready = left > 0 ? poll(&waiting, 1, static_cast<int>(std::min<long long>(left, 1'000'000'000))) : 0;
+    if (ready < 0 && errno == EINTR) continue;
+    if (ready <= 0) {
+      outcome.timed_out = true;
+      kill(child, SIGKILL);
+      break;
+    }
+    const ssize_t count = read(result, text, sizeof(text));
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) break;
+    outcome.line.append(text, static_cast<std::size_t>(count));
+  }
+  while (waitpid(child, &outcome.status, 0) < 0 && errno == EINTR) {
+  }
+  return outcome;
+}
+
+[[noreturn]] void fail_child(const std::filesystem::path& path, const ChildOutcome& outcome) {
+  const std::string name = reader_name(path);
+  const bool out_of_time = outcome.timed_out || (WIFSIGNALED(outcome.status) && WTERMSIG(outcome.status) == SIGXCPU);
+  if (out_of_time) {
+    fail(ErrorCode::kBadFormat, path, fmt::format("the reader of {} did not finish in time (damaged?)", name));
+  }
+  const bool out_of_memory = WIFEXITED(outcome.status) && WEXITSTATUS(outcome.status) == kChildOutOfMemory;
+  fail(ErrorCode::kBadFormat, path,
+       fmt::format("the reader of {} {} on this file (damaged?)", name,
+                   out_of_memory ? "needed far more memory than the header promises" : "failed"));
+}
+
+std::shared_ptr<const void> map_result(const std::filesystem::path& path, int voxel_file, std::size_t bytes) {
+  void* start = mmap(nullptr, bytes, PROT_READ, MAP_SHARED, voxel_file, 0);
+  if (start == MAP_FAILED) fail(ErrorCode::kOutOfMemory, path, fmt::format("cannot map {} bytes", bytes));
+  return {start, [bytes](const void* p) { munmap(const_cast<void*>(p), bytes); }};
+}
+
+}  // namespace
+
+std::shared_mutex& library_mutex() {
+  static std::shared_mutex mutex;
+  return mutex;
+}
+
+Volume read_isolated(const std::filesystem::path& path, const ReadOptions& options) {
+  const Descriptor voxel_file(memfd_create("voxlume-voxels", MFD_CLOEXEC));
+  int ends[2];
+  if (voxel_file.get() < 0 || pipe2(ends, O_CLOEXEC) != 0) {
+    fail(ErrorCode::kInternal, path, fmt::format("cannot start the reader: {}", std::strerror(errno)));
+  }
+  const Descriptor from_child(ends[0]);
+  Descriptor to_parent(ends[1]);
+  const std::chrono::seconds limit(wall_limit_seconds(path));
+  pid_t child = -1;
+  {
+    const std::unique_lock lock(library_mutex());
+    child = fork();
+  }
+  if (child < 0) fail(ErrorCode::kInternal, path, fmt::format("cannot start the reader: {}", std::strerror(errno)));
+  if (child == 0) run_child(path, options, voxel_file.get(), to_parent.get());
+  to_parent.reset();
+  const ChildOutcome outcome = await_child(child, from_child.get(), limit);
+  if (outcome.timed_out || outcome.status != 0 || outcome.line.empty()) fail_child(path, outcome);
+  Volume volume = decode_result(outcome.line);
+  volume.voxels = map_result(path, voxel_file.get(), volume.byte_count());
+  return volume;
+}
+
+Volume read_in_process(const std::filesystem::path& path, const ReadOptions& options) {
+  return read_staged(path, options, [&](std::uint64_t bytes, std::uint64_t) { return allocate_voxels(path, bytes); });
+}
+
+}  // namespace voxlume

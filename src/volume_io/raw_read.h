@@ -1,0 +1,13 @@
+#pragma once
+#include <filesystem>
+
+#include "voxlume/volume_io.h"
+
+namespace voxlume {
+
+/// Reads headerless voxels. Little-endian aligned voxels are mapped from the file, not copied: the file must not be
+/// shortened while the volume lives. Throws Error kBadFormat naming both sizes when the file is too short,
+/// kBadParameter for a specification that cannot be.
+Volume read_raw(const std::filesystem::path& path, const RawSpec& spec, std::uint64_t memory_limit_bytes);
+
+}  // namespace voxlume

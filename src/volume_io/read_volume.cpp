@@ -1,0 +1,30 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "volume_io/fail.h"
+#include "volume_io/isolated_read.h"
+#include "volume_io/raw_read.h"
+#include "voxlume/volume_io.h"
+
+namespace voxlume {
+
+Volume read_volume(const std::filesystem::path& path, const ReadOptions& options) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) {
+    fail(ErrorCode::kFileNotFound, path, error ? "cannot be reached: " + error.message() : "no such file or folder");
+  }
+  if (options.spacing_mm) {
+    for (const double s : *options.spacing_mm) {
+      if (!(std::isfinite(s) && s > 0)) {
+        fail(ErrorCode::kBadParameter, path, fmt::format("spacing {}; expected finite numbers above 0 (mm)", s));
+      }
+    }
+  }
+  if (!options.raw) return read_isolated(path, options);
+  Volume volume = read_raw(path, *options.raw, options.memory_limit_bytes);
+  if (options.spacing_mm) volume.spacing_mm = *options.spacing_mm;
+  return volume;
+}
+
+}  // namespace voxlume

@@ -1,0 +1,51 @@
+#include "volume_io/staged_read.h"
+
+#include <fmt/format.h>
+
+#include <exception>
+#include <new>
+
+#include "volume_io/fail.h"
+#include "volume_io/geometry_check.h"
+#include "volume_io/memory_limit.h"
+#include "volume_io/voxel_convert.h"
+#include "volume_io/volume_reader.h"
+
+namespace voxlume {
+namespace {
+
+Volume read_steps(const std::filesystem::path& path, const ReadOptions& options, const AllocateVoxels& allocate) {
+  const std::unique_ptr<VolumeReader> reader = open_reader(path);
+  VolumeHeader header = reader->read_header();
+  Volume& volume = header.volume;
+  if (options.spacing_mm) volume.spacing_mm = *options.spacing_mm;
+  check_geometry(path, volume);
+  const std::uint64_t bytes = header.stored_bytes();
+  check_memory(path, volume, bytes, options.memory_limit_bytes);
+  check_memory(path, volume, bytes + header.working_bytes, 0);
+  const std::shared_ptr<void> voxels = allocate(bytes, header.working_bytes);
+  reader->read_voxels(voxels.get());
+  narrow_wide_integers(path, header.wide, voxels.get(), volume.voxel_count());
+  volume.voxels = voxels;
+  return volume;
+}
+
+}  // namespace
+
+Volume read_staged(const std::filesystem::path& path, const ReadOptions& options, const AllocateVoxels& allocate) {
+  try {
+    return read_steps(path, options, allocate);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    fail(ErrorCode::kBadFormat, path,
+         fmt::format("the reader of {} needed more memory than the file should take (damaged?)", reader_name(path)));
+  } catch (const std::exception& error) {
+    fail(ErrorCode::kBadFormat, path,
+         fmt::format("the reader of {} failed: {}", reader_name(path), library_message(error.what())));
+  } catch (...) {
+    fail(ErrorCode::kBadFormat, path, fmt::format("the reader of {} failed on this file (damaged?)", reader_name(path)));
+  }
+}
+
+}  // namespace voxlume

@@ -1,0 +1,89 @@
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli_fixture.h"
+#include "image_io/image_io.h"
+
+namespace voxlume::test {
+namespace {
+
+using testing::HasSubstr;
+using nlohmann::json;
+
+TEST_F(CliTest, InfoJson) {
+  const RunResult r = run({"info", "ball.nrrd", "--json"});
+  ASSERT_EQ(r.code, 0) << r.err;
+  const json info = json::parse(r.out);
+  EXPECT_EQ(info["size"], json({16, 16, 16}));
+  EXPECT_EQ(info["type"], "i16");
+  EXPECT_EQ(info["spacing_mm"], json({1.0, 1.0, 1.5}));
+  EXPECT_EQ(info["extent_mm"], json({16.0, 16.0, 24.0}));
+  EXPECT_EQ(info["origin_mm"], json({-7.5, -7.5, -11.25}));
+  EXPECT_EQ(info["orientation"], "LPS");
+  EXPECT_EQ(info["value_range"], json({-1000.0, 1000.0}));
+  EXPECT_EQ(info["percentiles"]["50"], -1000.0);
+  EXPECT_EQ(info["percentiles"]["99.9"], 1000.0);
+  EXPECT_EQ(info["bytes"], 16 * 16 * 16 * 2);
+  EXPECT_GE(info["render_bytes"], 16 * 16 * 16 * 2);
+  EXPECT_TRUE(info["warnings"].is_array());
+}
+
+TEST_F(CliTest, InfoNamesTheOrientationByItsAxes) {
+  std::string flipped = read("ball.nrrd");
+  const std::string directions = "(1,0,0) (0,1,0) (0,0,1.5)";
+  flipped.replace(flipped.find(directions), directions.size(), "(0,0,-1) (-1,0,0) (0,2,0)");
+  write("turned.nrrd", flipped);
+  const json info = json::parse(run({"info", "turned.nrrd", "--json"}).out);
+  EXPECT_EQ(info["orientation"], "IRP");
+  EXPECT_EQ(info["spacing_mm"], json({1.0, 1.0, 2.0}));
+}
+
+TEST_F(CliTest, InfoForPeople) {
+  const RunResult r = run({"info", "ball.nrrd"});
+  EXPECT_EQ(r.code, 0);
+  EXPECT_THAT(r.out, HasSubstr("16 x 16 x 16 voxels"));
+  EXPECT_THAT(r.out, HasSubstr("1 x 1 x 1.5 mm"));
+  EXPECT_THAT(r.out, HasSubstr("-1000 to 1000"));
+  EXPECT_THAT(run({"info", "ball.raw", "--raw", "16x16x16,i16,2,2,2"}).out, HasSubstr("32 x 32 x 32 mm"));
+}
+
+TEST_F(CliTest, ConvertThereAndBack) {
+  ASSERT_EQ(run({"convert", "ball.nrrd", "ball.nii.gz"}).code, 0);
+  ASSERT_EQ(run({"convert", "ball.nii.gz", "ball.mha"}).code, 0);
+  json before = json::parse(run({"info", "ball.nrrd", "--json"}).out);
+  json after = json::parse(run({"info", "ball.mha", "--json"}).out);
+  for (const char* key : {"size", "type", "spacing_mm", "origin_mm", "direction", "value_range", "percentiles"}) {
+    EXPECT_EQ(before[key], after[key]) << key;
+  }
+}
+
+TEST_F(CliTest, CompareOfIdenticalPictures) {
+  ASSERT_EQ(render("ball.nrrd", "a.exr").code, 0);
+  const RunResult r = run({"compare", "a.exr", "a.exr", "--json"});
+  ASSERT_EQ(r.code, 0) << r.err;
+  const json result = json::parse(r.out);
+  EXPECT_EQ(result["rmse"], 0.0);
+  EXPECT_TRUE(result["psnr"].is_null());
+  EXPECT_NEAR(result["ssim"].get<double>(), 1.0, 1e-9);
+}
+
+TEST_F(CliTest, CompareOfDifferentPictures) {
+  ASSERT_EQ(render("ball.nrrd", "a.exr").code, 0);
+  ASSERT_EQ(render("ball.nrrd", "b.exr", {"--seed", "9"}).code, 0);
+  const RunResult r = run({"compare", "a.exr", "b.exr", "--metric", "psnr,rmse", "--json", "--error-map", "e.png"});
+  ASSERT_EQ(r.code, 0) << r.err;
+  const json result = json::parse(r.out);
+  EXPECT_EQ(result.size(), 2u);
+  EXPECT_GT(result["rmse"].get<double>(), 0);
+  EXPECT_GT(result["psnr"].get<double>(), 5);
+  EXPECT_EQ(read_image(folder_ / "e.png").width, 24);
+  EXPECT_THAT(run({"compare", "a.exr", "b.exr"}).out, HasSubstr("psnr "));
+  ASSERT_EQ(run({"render", "ball.nrrd", "-o", "small.exr", "--size", "8x8", "--spp", "1"}).code, 0);
+  const RunResult sizes = run({"compare", "a.exr", "small.exr"});
+  EXPECT_EQ(sizes.code, 2);
+  EXPECT_THAT(sizes.err, HasSubstr("is 8 x 8 pixels, expected 24 x 20"));
+}
+
+}  // namespace
+}  // namespace voxlume::test

@@ -1,0 +1,145 @@
+// What is chosen when the user says nothing: presets, lights, camera target.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "grid/phantom.h"
+#include "scene/compile.h"
+#include "scene/presets.h"
+#include "scene/resolve.h"
+#include "scene/scene_file.h"
+#include "voxlume/error.h"
+
+namespace voxlume {
+namespace {
+
+using testing::HasSubstr;
+
+VolumeStatistics statistics_of(std::vector<std::pair<float, std::uint64_t>> histogram) {
+  VolumeStatistics s;
+  s.lower = histogram.front().first;
+  s.upper = histogram.back().first;
+  s.histogram = std::move(histogram);
+  return s;
+}
+
+Volume tiny(std::string modality, std::string format) {
+  Volume volume;
+  volume.size = {100, 200, 50};
+  volume.spacing_mm = {1, 1, 2};
+  volume.modality = std::move(modality);
+  volume.format = std::move(format);
+  return volume;
+}
+
+TEST(Presets, EveryOneCompilesOnAnyData) {
+  const VolumeStatistics ct = statistics_of({{-1024, 500}, {40, 300}, {900, 50}, {2000, 3}});
+  const VolumeStatistics constant = statistics_of({{7, 100}});
+  const VolumeStatistics empty = [] {
+    VolumeStatistics s;
+    return s;
+  }();
+  ASSERT_GE(presets().size(), 5u);
+  for (const VolumeStatistics& s : {ct, constant, empty}) {
+    for (const Preset& preset : presets()) {
+      TransferDescription transfer;
+      transfer.points = preset.points(s);
+      transfer.reference_length_mm = 1;
+      const TransferFunction compiled(transfer);
+      EXPECT_GT(compiled.max_mu_t(), 0) << preset.name;
+      // What is drawn as opacity must stay below the clamp, or the densest matter all looks alike.
+      for (const TransferPoint& p : transfer.points) EXPECT_LE(*p.opacity, 0.9999) << preset.name;
+    }
+  }
+}
+
+TEST(Presets, TheOnesPromisedAreThere) {
+  for (const char* name : {"ct-bone", "ct-skin", "ct-muscle-bone", "mri-head", "fog"})
+    EXPECT_EQ(find_preset(name).name, name);
+}
+
+TEST(Presets, AnUnknownNameGetsTheNearestOne) {
+  try {
+    find_preset("ct-bones");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kBadParameter);
+    EXPECT_THAT(error.what(), HasSubstr("did you mean \"ct-bone\""));
+  }
+}
+
+TEST(Presets, AreChosenFromTheData) {
+  const VolumeStatistics ct = statistics_of({{-1024, 500}, {40, 300}, {2000, 3}});
+  const VolumeStatistics bytes = statistics_of({{0, 500}, {100, 300}, {255, 3}});
+  EXPECT_EQ(automatic_preset(tiny("CT", "DICOM series"), bytes).name, "ct-bone");
+  EXPECT_EQ(automatic_preset(tiny("", "NRRD"), ct).name, "ct-bone");
+  EXPECT_EQ(automatic_preset(tiny("", "NIfTI"), ct).name, "ct-bone");
+  EXPECT_EQ(automatic_preset(tiny("MR", "NRRD"), bytes).name, "mri-head");
+  EXPECT_EQ(automatic_preset(tiny("", "NIfTI"), bytes).name, "mri-head");
+  EXPECT_EQ(automatic_preset(tiny("", "TIFF"), bytes).name, "generic");
+}
+
+TEST(Presets, ReferenceLengthIsAMillimetreForCtAndAShareOfTheVolumeElsewhere) {
+  EXPECT_EQ(default_reference_length_mm(find_preset("ct-bone"), tiny("", "")), 1);
+  EXPECT_EQ(default_reference_length_mm(find_preset("generic"), tiny("", "")), 200.0 / 256);
+}
+
+TEST(Presets, OtsuSeparatesTwoClasses) {
+  EXPECT_EQ(otsu_threshold(statistics_of({{0, 100}, {1, 100}, {2, 100}, {50, 30}, {51, 30}})), 2);
+}
+
+TEST(Resolve, KeepsWhatIsGivenAndFillsTheRest) {
+  const Volume phantom = make_head_phantom();
+  const VolumeStatistics statistics = compute_statistics(make_grid_view(phantom));
+  SceneDescription scene;
+  scene.transfer.preset = "ct-skin";
+  scene.lights.emplace();
+  scene.camera.azimuth_deg = 33;
+  const SceneDescription out = resolve(scene, phantom, statistics);
+  EXPECT_EQ(out.transfer.preset, "ct-skin");
+  EXPECT_FALSE(out.transfer.points.empty());
+  EXPECT_EQ(*out.transfer.reference_length_mm, 1);
+  EXPECT_TRUE(out.lights->empty());
+  EXPECT_TRUE(out.environment && out.background && out.camera.target_mm && out.image.spp);
+  EXPECT_EQ(out.camera.azimuth_deg, 33);
+  EXPECT_EQ(resolve(out, phantom, statistics), out);
+}
+
+TEST(Resolve, ASavedSceneDescribesTheSamePicture) {
+  const Volume phantom = make_head_phantom();
+  const VolumeStatistics statistics = compute_statistics(make_grid_view(phantom));
+  SceneDescription scene;
+  scene.volume.path = "phantom";
+  const SceneDescription out = resolve(scene, phantom, statistics);
+  EXPECT_EQ(parse_scene(write_scene(out), "saved.json"), out);
+}
+
+TEST(Resolve, RefusesAClipBoxThatKeepsNothing) {
+  const Volume phantom = make_head_phantom();
+  SceneDescription scene;
+  scene.clip.emplace();
+  scene.clip->x_mm = {5000, 6000};
+  EXPECT_THROW(resolve(scene, phantom, compute_statistics(make_grid_view(phantom))), Error);
+}
+
+TEST(Compile, RefusesWhatIsNotBuilt) {
+  const Volume phantom = make_head_phantom();
+  const VolumeStatistics statistics = compute_statistics(make_grid_view(phantom));
+  for (const auto set : {+[](RenderDescription& r) { r.accelerator = "octree"; },
+                         +[](RenderDescription& r) { r.simd = "avx2"; },
+                         +[](RenderDescription& r) { r.denoise = "wrls"; }}) {
+    SceneDescription scene = resolve({}, phantom, statistics);
+    set(scene.render);
+    try {
+      const CompiledScene compiled(scene, phantom, statistics);
+      FAIL();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::kUnsupported);
+      EXPECT_THAT(error.what(), HasSubstr("not built yet"));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace voxlume

@@ -1,0 +1,49 @@
+#pragma once
+#include "voxlume/scene.h"
+
+namespace voxlume {
+
+/// A valid scene in which every field differs from its default, save those with one value only.
+inline SceneDescription full_scene() {
+  SceneDescription s;
+  s.volume = {"data/ct.raw", "4x4x4,u8,1,1,1", Double3{0.5, 0.25, 1.0 / 3.0}, Double3{-1, 0, 12.5},
+              std::array<double, 9>{0, 1, 0, -1, 0, 0, 0, 0, 1}};
+  s.transfer.preset = "ct-bone";
+  s.transfer.reference_length_mm = 0.957;
+  s.transfer.density_scale = 2.5;
+  s.transfer.points = {{-100.5, 0.0, {}, Color{{0.1f, 0.2f, 0.3f}}, {}},
+                       {150, 0.7, {}, {}, Color{{0, 12.5f, 0}}},
+                       {150, 1.0, {}, Color{{1.0f / 3.0f, 1, 0}}, {}}};
+  s.labels = LabelsDescription{"labels.nii.gz", "labels.txt", 0.75};
+  s.material = {Shading::kBrdf, SurfaceShareForm::kThreshold, 0.7, false, -0.3, 0.9, 0.1};
+  LightDescription sun, lamp, panel;
+  sun.direction = Double3{-0.5, 0.6, 0.75};
+  sun.color = Color{{1, 0.9f, 0.8f}};
+  sun.intensity = 9;
+  lamp.kind = LightKind::kPoint;
+  lamp.position_mm = Double3{1, 2, 3};
+  panel.kind = LightKind::kRect;
+  panel.attached_to = Attachment::kCamera;
+  panel.position_mm = Double3{100, 200, 300};
+  panel.target_mm = Double3{0, 1, 0};
+  panel.up = Double3{0, 0, 1};
+  panel.size_mm = {30, 40};
+  panel.two_sided = true;
+  s.lights = {sun, lamp, panel};
+  s.environment = EnvironmentDescription{"sky.exr", Color{{0.5f, 0.5f, 1}}, 2, 45, Attachment::kCamera, true};
+  s.background = BackgroundDescription{BackgroundKind::kEnvironment, Color{{0.25f, 0, 0}}};
+  s.camera = {Projection::kOrthographic, 30, -10, 5, 1.5, 28, Double3{1, 2, 3}, Double3{4, 5, 6}, Double3{0, 1, 0},
+              200.0, 0.5, 300.0, 3};
+  s.clip = ClipDescription{{-10, 1e30}, {-1e30, 20}, {0, 5}, true};
+  s.image = {640, 480, 16, 2.5, 0.01, PixelFilter::kBox, 0.5, 1.25, ToneCurve::kSrgb, {"depth", "albedo"}};
+  s.render.seed = 18446744073709551615ull;
+  s.render.frame = 7;
+  s.render.max_scatter = 100;
+  s.render.accelerator = "macrocell";
+  s.render.macrocell_voxels = 8;
+  s.render.simd = "scalar";
+  s.render.light_sampling = "light";
+  return s;
+}
+
+}  // namespace voxlume
