@@ -44,7 +44,8 @@ std::vector<const Metric*> chosen_metrics(const std::vector<std::string>& names)
   }
   for (const std::string& name : names) {
     if (name == "flip") {
-      throw Error(ErrorCode::kUnsupported, "", "--metric flip is not built yet; available: " + join_words(known));
+      throw Error(ErrorCode::kUnsupported, "",
+                  "--metric flip is not built yet; available: " + join_words(known));
     }
     const auto found = std::find(known.begin(), known.end(), name);
     if (found == known.end()) {
@@ -77,8 +78,8 @@ int compare(const CompareRequest& request) {
   const Image reference = read_image(request.reference);
   if (image.width != reference.width || image.height != reference.height) {
     throw Error(ErrorCode::kBadParameter, request.reference,
-                fmt::format("is {} x {} pixels, expected {} x {} as {} has", reference.width, reference.height,
-                            image.width, image.height, request.image));
+                fmt::format("is {} x {} pixels, expected {} x {} as {} has", reference.width,
+                            reference.height, image.width, image.height, request.image));
   }
   nlohmann::ordered_json results = nlohmann::ordered_json::object();
   for (const Metric* metric : metrics) {
@@ -98,7 +99,8 @@ int compare(const CompareRequest& request) {
 }  // namespace
 
 void add_compare_command(CLI::App& program, Action& action) {
-  CLI::App* const command = program.add_subcommand("compare", "Measure how far a picture is from a reference");
+  CLI::App* const command =
+      program.add_subcommand("compare", "Measure how far a picture is from a reference");
   const auto request = std::make_shared<CompareRequest>();
   command->add_option("A", request->image, "Picture: EXR, HDR or PNG")->required();
   command->add_option("B", request->reference, "Reference of the same size")->required();
@@ -109,9 +111,10 @@ void add_compare_command(CLI::App& program, Action& action) {
   command->add_flag("--json", request->json, "Print one flat JSON object; null where a metric has no value");
   command->add_option("--error-map", request->error_map, "Write the absolute difference of the linear values")
       ->type_name("E.png");
-  command->footer("\nrmse and psnr_hdr are of linear values; psnr and ssim of display values (EV 0, clamped sRGB).\n"
-                  "psnr is null (none) where the pictures are identical.\n\n"
-                  "Example:\n  voxlume compare out.exr reference.exr --metric psnr,rmse --json");
+  command->footer(
+      "\nrmse and psnr_hdr are of linear values; psnr and ssim of display values (EV 0, clamped sRGB).\n"
+      "psnr is null (none) where the pictures are identical.\n\n"
+      "Example:\n  voxlume compare out.exr reference.exr --metric psnr,rmse --json");
   command->callback([&action, request] { action = [request] { return compare(*request); }; });
 }
 

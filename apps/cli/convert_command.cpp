@@ -31,14 +31,17 @@ int convert(const ConvertRequest& request) {
 void add_convert_command(CLI::App& program, Action& action) {
   CLI::App* const command = program.add_subcommand("convert", "Write a volume in another format");
   const auto request = std::make_shared<ConvertRequest>();
-  command->add_option("INPUT", request->input, "Volume file, DICOM folder, scene (.json) or \"phantom\"")->required();
+  command->add_option("INPUT", request->input, "Volume file, DICOM folder, scene (.json) or \"phantom\"")
+      ->required();
   command
-      ->add_option("OUTPUT", request->output,
-                   "By extension: .nrrd .nhdr .mha .mhd .nii .nii.gz .tif .vtk .h5 .vdb; FOLDER/ gets a DICOM series")
+      ->add_option(
+          "OUTPUT", request->output,
+          "By extension: .nrrd .nhdr .mha .mhd .nii .nii.gz .tif .vtk .h5 .vdb; FOLDER/ gets a DICOM series")
       ->required();
   request->flags.add_volume_flags_to(*command);
-  command->footer("\nExamples:\n  voxlume convert dicom-folder head.nrrd\n"
-                  "  voxlume convert block.bin block.nii.gz --raw 64x64x64,u8,1,1,1");
+  command->footer(
+      "\nExamples:\n  voxlume convert dicom-folder head.nrrd\n"
+      "  voxlume convert block.bin block.nii.gz --raw 64x64x64,u8,1,1,1");
   command->callback([&action, request] { action = [request] { return convert(*request); }; });
 }
 

@@ -75,9 +75,12 @@ std::string number_list(const Json& list, const char* separator = " x ") {
 
 void print_table(const Json& info) {
   const auto line = [](const char* key, const std::string& value) { fmt::print("{:<12} {}\n", key, value); };
-  const auto mebibytes = [&](const char* key) { return fmt::format("{:.1f} MiB", info[key].get<double>() / 1048576); };
+  const auto mebibytes = [&](const char* key) {
+    return fmt::format("{:.1f} MiB", info[key].get<double>() / 1048576);
+  };
   line("format", info["format"].get<std::string>());
-  if (const auto modality = info["modality"].get<std::string>(); !modality.empty()) line("modality", modality);
+  if (const auto modality = info["modality"].get<std::string>(); !modality.empty())
+    line("modality", modality);
   line("size", number_list(info["size"]) + " voxels");
   line("type", info["type"].get<std::string>());
   line("spacing", number_list(info["spacing_mm"]) + " mm");
@@ -90,7 +93,8 @@ void print_table(const Json& info) {
     line(r == 0 ? "direction" : "", row);
   }
   line("values", number_list(info["value_range"], " to "));
-  if (const auto n = info["nonfinite_voxels"].get<std::uint64_t>()) line("not finite", fmt::format("{} voxels", n));
+  if (const auto n = info["nonfinite_voxels"].get<std::uint64_t>())
+    line("not finite", fmt::format("{} voxels", n));
   for (const auto& [percent, value] : info["percentiles"].items()) {
     line(percent == "0.1" ? "percentiles" : "", fmt::format("{:>5} %  {:.6g}", percent, value.get<double>()));
   }
@@ -122,9 +126,11 @@ int show_info(const InfoRequest& request) {
 }  // namespace
 
 void add_info_command(CLI::App& program, Action& action) {
-  CLI::App* const command = program.add_subcommand("info", "Describe a volume: size, orientation, values, memory");
+  CLI::App* const command =
+      program.add_subcommand("info", "Describe a volume: size, orientation, values, memory");
   const auto request = std::make_shared<InfoRequest>();
-  command->add_option("INPUT", request->input, "Volume file, DICOM folder, scene (.json) or \"phantom\"")->required();
+  command->add_option("INPUT", request->input, "Volume file, DICOM folder, scene (.json) or \"phantom\"")
+      ->required();
   command->add_flag("--json", request->json, "Print JSON");
   request->flags.add_volume_flags_to(*command);
   command->footer("\nExamples:\n  voxlume info head-ct.nrrd\n  voxlume info dicom-folder --json");

@@ -27,7 +27,8 @@ Exit codes: 0 done; 2 bad usage or input; 1 any other failure; 130 interrupted.)
 
 int report(int code, const std::string& message) {
   std::string line = message;
-  std::replace_if(line.begin(), line.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+  std::replace_if(
+      line.begin(), line.end(), [](unsigned char c) { return c < 0x20; }, ' ');
   fmt::print(stderr, "error: {}\n", line);
   return code;
 }
@@ -60,7 +61,8 @@ std::string unknown_argument(const CLI::App& program) {
   const char* const kind = &command == &program && !extra.starts_with("-") ? "command" : "argument";
   std::string message = fmt::format("unknown {} {}", kind, quote_text(word));
   if (!near.empty()) return message + fmt::format("; did you mean {}?", near);
-  return message + fmt::format("; see voxlume {}--help", &command == &program ? "" : command.get_name() + " ");
+  return message +
+         fmt::format("; see voxlume {}--help", &command == &program ? "" : command.get_name() + " ");
 }
 
 /// The parser's "--spp: 1 required N missing" and "--spp: At Most 1 required but received 2" in plain words.
@@ -92,8 +94,10 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return report(kBadUsage, error.what());
   }
-  if (!action) return report(kBadUsage, "no command; expected one of render, info, convert, compare, presets, "
-                                        "schema (see voxlume --help)");
+  if (!action)
+    return report(kBadUsage,
+                  "no command; expected one of render, info, convert, compare, presets, "
+                  "schema (see voxlume --help)");
   return action();
 }
 

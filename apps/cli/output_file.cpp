@@ -14,7 +14,8 @@ PictureFormat picture_format(const fs::path& path, const std::string& flag) {
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   if (extension == ".png") return PictureFormat::kPng;
   if (extension == ".exr") return PictureFormat::kExr;
-  throw Error(ErrorCode::kUnsupported, flag, "found " + quote_text(path.string()) + ", expected a name ending in .png or .exr");
+  throw Error(ErrorCode::kUnsupported, flag,
+              "found " + quote_text(path.string()) + ", expected a name ending in .png or .exr");
 }
 
 void check_writable(const fs::path& path, const std::string& flag) {
@@ -25,8 +26,10 @@ void check_writable(const fs::path& path, const std::string& flag) {
   if (path.filename().empty()) refuse("expected a file name");
   if (fs::is_directory(path, ignored)) refuse("it is a folder");
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  if (!fs::is_directory(folder, ignored)) refuse("the folder " + quote_text(folder.string()) + " does not exist");
-  if (::access(folder.c_str(), W_OK | X_OK) != 0) refuse("the folder " + quote_text(folder.string()) + " is not writable");
+  if (!fs::is_directory(folder, ignored))
+    refuse("the folder " + quote_text(folder.string()) + " does not exist");
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    refuse("the folder " + quote_text(folder.string()) + " is not writable");
 }
 
 }  // namespace voxlume::cli

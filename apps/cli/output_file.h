@@ -6,11 +6,12 @@ namespace voxlume::cli {
 
 enum class PictureFormat { kPng, kExr };
 
-/// The format of a picture by its extension, in any case. Throws Error kUnsupported, naming `flag`, for another one.
+/// The format of a picture by its extension, in any case. Throws Error kUnsupported, naming `flag`, for
+/// another one.
 PictureFormat picture_format(const std::filesystem::path& path, const std::string& flag);
 
-/// Throws Error kBadParameter, naming `flag`, unless a file could be written at `path`: its folder exists and is
-/// writable, and it is no folder itself.
+/// Throws Error kBadParameter, naming `flag`, unless a file could be written at `path`: its folder exists and
+/// is writable, and it is no folder itself.
 void check_writable(const std::filesystem::path& path, const std::string& flag);
 
 }  // namespace voxlume::cli

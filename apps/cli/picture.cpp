@@ -72,7 +72,8 @@ void write_picture(const Film& film, const std::vector<std::string>& aovs, const
             path);
 }
 
-std::string scene_fingerprint(const SceneDescription& scene, const Volume& volume, const VolumeStatistics& statistics) {
+std::string scene_fingerprint(const SceneDescription& scene, const Volume& volume,
+                              const VolumeStatistics& statistics) {
   SceneDescription samples = scene;
   const ImageDescription defaults;
   samples.image.spp = defaults.spp;

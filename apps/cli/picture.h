@@ -15,8 +15,9 @@ namespace voxlume::cli {
 void write_picture(const Film& film, const std::vector<std::string>& aovs, const SceneDescription& scene,
                    const std::filesystem::path& path);
 
-/// Text that differs whenever samples of the scene differ: the scene without what only ends or develops a render,
-/// and a digest of the volume. `scene` is resolved.
-std::string scene_fingerprint(const SceneDescription& scene, const Volume& volume, const VolumeStatistics& statistics);
+/// Text that differs whenever samples of the scene differ: the scene without what only ends or develops a
+/// render, and a digest of the volume. `scene` is resolved.
+std::string scene_fingerprint(const SceneDescription& scene, const Volume& volume,
+                              const VolumeStatistics& statistics);
 
 }  // namespace voxlume::cli

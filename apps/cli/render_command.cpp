@@ -30,7 +30,9 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 /// What the user asked for.
 struct RenderRequest {
@@ -46,19 +48,22 @@ void check_outputs(const RenderRequest& request) {
     throw Error(ErrorCode::kBadParameter, "-o", "missing; expected a picture to write, such as -o out.png");
   }
   if (request.output.empty() && (!request.stats.empty() || request.resume)) {
-    throw Error(ErrorCode::kBadParameter, request.resume ? "--resume" : "--stats", "needs -o: without it nothing is rendered");
+    throw Error(ErrorCode::kBadParameter, request.resume ? "--resume" : "--stats",
+                "needs -o: without it nothing is rendered");
   }
   if (!request.output.empty()) {
     const PictureFormat format = picture_format(request.output, "-o");
     if (format == PictureFormat::kPng && request.flags.given("--aov")) {
-      throw Error(ErrorCode::kBadParameter, "--aov", "a PNG holds no layers; expected -o with a name ending in .exr");
+      throw Error(ErrorCode::kBadParameter, "--aov",
+                  "a PNG holds no layers; expected -o with a name ending in .exr");
     }
     check_writable(request.output, "-o");
   }
   if (!request.stats.empty()) check_writable(request.stats, "--stats");
   if (!request.save_scene.empty()) check_writable(request.save_scene, "--save-scene");
   const auto same = [](const std::string& a, const std::string& b) {
-    return !a.empty() && !b.empty() && fs::absolute(a).lexically_normal() == fs::absolute(b).lexically_normal();
+    return !a.empty() && !b.empty() &&
+           fs::absolute(a).lexically_normal() == fs::absolute(b).lexically_normal();
   };
   if (same(request.stats, request.output) || same(request.save_scene, request.output) ||
       same(request.stats, request.save_scene)) {
@@ -87,7 +92,8 @@ class RenderRun {
 
   int render() {
     const SceneDescription& scene = compiled_->description();
-    aovs_ = picture_format(request_.output, "-o") == PictureFormat::kExr ? scene.image.aovs : std::vector<std::string>{};
+    aovs_ = picture_format(request_.output, "-o") == PictureFormat::kExr ? scene.image.aovs
+                                                                         : std::vector<std::string>{};
     const fs::path checkpoint = checkpoint_path(request_.output);
     const std::string fingerprint = scene_fingerprint(scene, compiled_->volume(), statistics_);
     RenderState state = start_state(checkpoint, fingerprint);
@@ -132,7 +138,8 @@ class RenderRun {
   RenderState start_state(const fs::path& checkpoint, const std::string& fingerprint) const {
     if (request_.resume) {
       if (fs::exists(checkpoint)) return load_checkpoint(checkpoint, fingerprint);
-      fmt::print(stderr, "note: there is no {}; starting from the beginning\n", quote_text(checkpoint.string()));
+      fmt::print(stderr, "note: there is no {}; starting from the beginning\n",
+                 quote_text(checkpoint.string()));
     }
     const ImageDescription& image = compiled_->description().image;
     return {Film(image.width, image.height, film_layers(aovs_)), {}, 0};
@@ -148,7 +155,8 @@ class RenderRun {
     write_picture(state.film, aovs_, compiled_->description(), request_.output);
     RenderStatistics statistics = statistics_from(state);
     if (statistics.nonfinite_samples > 0) {
-      print_warnings({fmt::format("{} samples were not finite and counted as black", statistics.nonfinite_samples)});
+      print_warnings(
+          {fmt::format("{} samples were not finite and counted as black", statistics.nonfinite_samples)});
     }
     if (request_.stats.empty()) return;
     statistics.load_s = load_s_;
@@ -194,7 +202,8 @@ Examples:
 void add_render_command(CLI::App& program, Action& action) {
   CLI::App* const command = program.add_subcommand("render", "Render a volume or scene to a picture");
   const auto request = std::make_shared<RenderRequest>();
-  command->add_option("INPUT", request->input, "Volume file, DICOM folder, scene (.json) or \"phantom\"")->required();
+  command->add_option("INPUT", request->input, "Volume file, DICOM folder, scene (.json) or \"phantom\"")
+      ->required();
   command->add_option("-o,--output", request->output, "Picture to write, .png or .exr")->type_name("OUT");
   request->flags.add_to(*command);
   command->add_option("--threads", request->threads, "Threads to use; all by default")

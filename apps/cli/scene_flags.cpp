@@ -20,10 +20,10 @@ using Apply = void (*)(SceneDescription& scene, const std::string& text, const s
 /// A flag and the field it sets. Its help is the field's own unless `help` says more.
 struct Row {
   const char* flag;
-  const char* value;            ///< what the help calls its value; nullptr for flags without one
-  const char* address;          ///< field set, or that explains it
+  const char* value;    ///< what the help calls its value; nullptr for flags without one
+  const char* address;  ///< field set, or that explains it
   const char* help = nullptr;
-  Apply apply = nullptr;        ///< nullptr: set_scene_field(address)
+  Apply apply = nullptr;  ///< nullptr: set_scene_field(address)
 };
 
 [[noreturn]] void refuse(const std::string& flag, const std::string& text, const std::string& expected) {
@@ -55,7 +55,8 @@ void apply_preset(SceneDescription& scene, const std::string& text, const std::s
 
 void apply_camera(SceneDescription& scene, const std::string& text, const std::string& flag) {
   const auto parts = split(text, ',');
-  if (parts.size() != 2 && parts.size() != 3) refuse(flag, text, "azimuth,elevation[,zoom], angles in degrees");
+  if (parts.size() != 2 && parts.size() != 3)
+    refuse(flag, text, "azimuth,elevation[,zoom], angles in degrees");
   set_scene_field(scene, "/camera/azimuth_deg", parts[0], flag);
   set_scene_field(scene, "/camera/elevation_deg", parts[1], flag);
   if (parts.size() == 3) set_scene_field(scene, "/camera/zoom", parts[2], flag);
@@ -138,9 +139,11 @@ constexpr std::size_t kVolumeRows = 2;
 constexpr Row kRows[] = {
     {"--raw", "SPEC", "/volume/raw", nullptr, apply_raw},
     {"--spacing", "X,Y,Z", "/volume/spacing_mm"},
-    {"--preset", "NAME", "/transfer/preset", "Transfer function: a name that `voxlume presets` lists", apply_preset},
+    {"--preset", "NAME", "/transfer/preset", "Transfer function: a name that `voxlume presets` lists",
+     apply_preset},
     {"--reference-length", "MM", "/transfer/reference_length_mm"},
-    {"--labels", "FILE", "/labels/path", "Label volume whose colors replace the transfer function's", apply_labels},
+    {"--labels", "FILE", "/labels/path", "Label volume whose colors replace the transfer function's",
+     apply_labels},
     {"--size", "WxH", "/image/width", "Picture size in pixels", apply_size},
     {"--spp", "N", "/image/spp"},
     {"--seconds", "S", "/image/seconds"},
@@ -152,7 +155,8 @@ constexpr Row kRows[] = {
     {"--roughness", "R", "/material/roughness"},
     {"--anisotropy", "G", "/material/anisotropy"},
     {"--camera", "AZ,EL[,ZOOM]", "/camera/azimuth_deg",
-     "Degrees; 0,0 looks at the face, azimuth grows toward the patient's left, elevation toward the head; zoom 1 fits",
+     "Degrees; 0,0 looks at the face, azimuth grows toward the patient's left, elevation toward the head; "
+     "zoom 1 fits",
      apply_camera},
     {"--projection", "NAME", "/camera/projection", "perspective or orthographic"},
     {"--fov", "DEG", "/camera/vertical_fov_deg"},
@@ -165,7 +169,8 @@ constexpr Row kRows[] = {
     {"--exposure", "EV", "/image/exposure_ev"},
     {"--tone-curve", "NAME", "/image/tone_curve", "PNG: filmic or srgb"},
     {"--aov", "LIST", "/image/aovs", "Further layers of an EXR: alpha,depth,normal,albedo,samples,variance"},
-    {"--light-sampling", "NAME", "/render/light_sampling", "mis, light or direction: how scatterings gather light"},
+    {"--light-sampling", "NAME", "/render/light_sampling",
+     "mis, light or direction: how scatterings gather light"},
     {"--denoise", "NAME", "/render/denoise", "none"},
     {"--simd", "NAME", "/render/simd", "auto or scalar"},
     {"--accel", "NAME", "/render/accelerator", "auto, none or macrocell"},
@@ -178,7 +183,8 @@ constexpr Row kRows[] = {
 void apply_setting(SceneDescription& scene, const std::string& setting) {
   const std::size_t equals = setting.find('=');
   if (equals == std::string::npos) refuse("--set", setting, "ADDRESS=VALUE, such as /material/specular=0.2");
-  set_scene_field(scene, setting.substr(0, equals), setting.substr(equals + 1), "--set " + setting.substr(0, equals));
+  set_scene_field(scene, setting.substr(0, equals), setting.substr(equals + 1),
+                  "--set " + setting.substr(0, equals));
 }
 
 bool is_stop_rule(const Row& row) {
@@ -192,12 +198,21 @@ void SceneFlags::add(CLI::App& command, std::size_t index) {
   const Row& row = kRows[index];
   const std::string help = row.help ? row.help : describe_scene_field(row.address);
   if (!row.value) {
-    command.add_flag_function(row.flag, [this, index](std::int64_t) { given_.push_back({index, "true"}); }, help);
+    command.add_flag_function(
+        row.flag,
+        [this, index](std::int64_t) {
+          given_.push_back({index, "true"});
+        },
+        help);
     return;
   }
   command
       .add_option_function<std::string>(
-          row.flag, [this, index](const std::string& text) { given_.push_back({index, text}); }, help)
+          row.flag,
+          [this, index](const std::string& text) {
+            given_.push_back({index, text});
+          },
+          help)
       ->type_name(row.value);
 }
 
@@ -207,7 +222,8 @@ void SceneFlags::add_volume_flags_to(CLI::App& command) {
 
 void SceneFlags::add_to(CLI::App& command) {
   for (std::size_t i = 0; i < std::size(kRows); ++i) add(command, i);
-  command.add_option("--set", settings_, "Any field of the scene by its address, such as /material/specular=0.2")
+  command
+      .add_option("--set", settings_, "Any field of the scene by its address, such as /material/specular=0.2")
       ->type_name("ADDRESS=VALUE")
       ->take_all()
       ->allow_extra_args(false);

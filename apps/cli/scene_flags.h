@@ -33,10 +33,12 @@ class SceneFlags {
   std::vector<std::string> settings_;  ///< of --set
 };
 
-/// The scene that INPUT stands for, before flags: a scene file's, or the default one with INPUT as its volume.
+/// The scene that INPUT stands for, before flags: a scene file's, or the default one with INPUT as its
+/// volume.
 SceneDescription scene_of_input(const std::string& input);
 
-/// Calls `work` and puts the scene file's name before the address of an Error about a field ("/transfer/preset").
+/// Calls `work` and puts the scene file's name before the address of an Error about a field
+/// ("/transfer/preset").
 void with_scene_name(const std::string& input, const std::function<void()>& work);
 
 }  // namespace voxlume::cli

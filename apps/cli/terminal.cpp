@@ -34,14 +34,16 @@ std::string progress_text(const RenderProgress& progress, const StopRule& stop) 
   std::string text = fmt::format("{:.0f}", std::floor(progress.spp));
   if (stop.spp) text += fmt::format(" of {}", *stop.spp);
   text += fmt::format(" spp, {:.3g} M paths/s", progress.samples_per_s * 1e-6);
-  if (progress.noise && stop.noise) text += fmt::format(", noise {:.3g} of {:.3g}", *progress.noise, *stop.noise);
+  if (progress.noise && stop.noise)
+    text += fmt::format(", noise {:.3g} of {:.3g}", *progress.noise, *stop.noise);
   if (progress.remaining_s) text += ", " + duration_text(*progress.remaining_s) + " left";
   return text;
 }
 
 void print_warnings(const std::vector<std::string>& warnings) {
   for (std::string line : warnings) {
-    std::replace_if(line.begin(), line.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+    std::replace_if(
+        line.begin(), line.end(), [](unsigned char c) { return c < 0x20; }, ' ');
     fmt::print(stderr, "warning: {}\n", line);
   }
 }

@@ -18,18 +18,18 @@ struct ImageLayer {
 /// A picture in linear Rec. 709, premultiplied by alpha.
 ///
 /// The layers that voxlume writes, one for each name in ImageDescription::aovs:
-///   layer     channels  unit          meaning
-///   alpha     Y         1             share of the samples that scattered; A itself is 1 unless the background is
-///                                     transparent
-///   depth     Z         mm            from the eye to the first scattering, mean over the samples that scattered
-///   normal    X Y Z     1             at the first scattering, LPS, mean (not normalised) over those samples
-///   albedo    R G B     1             at the first scattering, mean over those samples
-///   samples   Y         1             samples of the pixel
-///   variance  Y         radiance^2    variance of the pixel's mean luminance
+///   layer     channels  unit        meaning
+///   alpha     Y         1           share of the samples that scattered; A itself is 1 unless the background
+///                                   is transparent
+///   depth     Z         mm          from the eye to the first scattering, mean over samples that scattered
+///   normal    X Y Z     1           at the first scattering, LPS, mean (not normalised) over those samples
+///   albedo    R G B     1           at the first scattering, mean over those samples
+///   samples   Y         1           samples of the pixel
+///   variance  Y         radiance^2  variance of the pixel's mean luminance
 /// The first scattering of depth, normal and albedo is that of the camera path; zero where nothing scattered.
 ///
-/// Metadata that voxlume writes (EXR attributes, PNG text): "voxlume:scene" (the scene as JSON), "voxlume:seed",
-/// "voxlume:version".
+/// Metadata that voxlume writes (EXR attributes, PNG text): "voxlume:scene" (the scene as JSON),
+/// "voxlume:seed", "voxlume:version".
 struct Image {
   int width = 0, height = 0;
   std::vector<float> rgba;             ///< width * height * 4, row by row from the top

@@ -9,8 +9,9 @@ namespace voxlume {
 struct StopRule {
   std::optional<int> spp;         ///< samples per pixel, >= 1
   std::optional<double> seconds;  ///< time since the first sample, over all resumed parts, > 0
-  /// Mean over pixels of standard error / (luminance + 0.01), > 0. Looked at when all pixels have the same number of
-  /// samples, which is 8, 16, 32 or a further multiple of 32: the picture does not depend on the machine's speed.
+  /// Mean over pixels of standard error / (luminance + 0.01), > 0. Looked at when all pixels have the same
+  /// number of samples, which is 8, 16, 32 or a further multiple of 32: the picture does not depend on the
+  /// machine's speed.
   std::optional<double> noise;
 };
 

@@ -32,7 +32,8 @@ fs::path follow_links(fs::path path) {
 
 }  // namespace
 
-void write_file_atomically(const fs::path& path, const std::function<void(const fs::path& temporary)>& write) {
+void write_file_atomically(const fs::path& path,
+                           const std::function<void(const fs::path& temporary)>& write) {
   const fs::path target = follow_links(path);
   std::error_code failed;
   const fs::file_status status = fs::status(target, failed);
@@ -64,7 +65,9 @@ void write_file_atomically(const fs::path& path, std::string_view bytes) {
     std::ofstream file(temporary, std::ios::binary);
     file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     file.close();
-    if (!file) throw Error(ErrorCode::kInternal, path.string(), "cannot be written (disk full or no permission?)");
+    if (!file) {
+      throw Error(ErrorCode::kInternal, path.string(), "cannot be written (disk full or no permission?)");
+    }
   });
 }
 

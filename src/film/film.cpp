@@ -42,8 +42,8 @@ Film::Film(int width, int height, FilmLayers layers) : width_(width), height_(he
     if (layers.albedo) albedos_.resize(pixels);
   } catch (const std::bad_alloc&) {
     throw Error(ErrorCode::kOutOfMemory, "",
-                "a picture of " + size_text() + " needs " + std::to_string((pixels * bytes_per_pixel(layers)) >> 20) +
-                    " MiB; render it smaller");
+                "a picture of " + size_text() + " needs " +
+                    std::to_string((pixels * bytes_per_pixel(layers)) >> 20) + " MiB; render it smaller");
   }
 }
 

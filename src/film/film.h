@@ -24,16 +24,16 @@ struct FilmLayers {
   friend bool operator==(const FilmLayers&, const FilmLayers&) = default;
 };
 
-/// The pixels of a picture while it is rendered: sums in double precision and the number of samples of each pixel.
-/// A pixel's samples are added in sample order by one thread at a time; then the sums, and everything derived from
-/// them, do not depend on the number of threads or the order of the pixels.
+/// The pixels of a picture while it is rendered: sums in double precision and the number of samples of each
+/// pixel. A pixel's samples are added in sample order by one thread at a time; then the sums, and everything
+/// derived from them, do not depend on the number of threads or the order of the pixels.
 class Film {
  public:
   /// 1 <= width, height <= 65536. Throws Error kBadParameter, or kOutOfMemory when the sums cannot be held.
   Film(int width, int height, FilmLayers layers = {});
 
-  /// Adds one sample to pixel (x, y). A radiance, normal, albedo or depth that is not finite becomes zero, and the
-  /// sample is counted in nonfinite_samples(); the pixel's sample count grows all the same.
+  /// Adds one sample to pixel (x, y). A radiance, normal, albedo or depth that is not finite becomes zero,
+  /// and the sample is counted in nonfinite_samples(); the pixel's sample count grows all the same.
   void add(int x, int y, const PixelSample& sample) noexcept;
 
   int width() const noexcept { return width_; }
@@ -58,8 +58,8 @@ class Film {
   double depth_mm(int x, int y) const noexcept;
 
   // Of the picture.
-  /// Mean over pixels of standard error / (luminance + 0.01): the quantity that `--noise` bounds. Meaningful once
-  /// pixels have several samples.
+  /// Mean over pixels of standard error / (luminance + 0.01): the quantity that `--noise` bounds. Meaningful
+  /// once pixels have several samples.
   double noise() const noexcept;
   /// Mean over pixels of the luminance of mean().
   double mean_luminance() const noexcept;
@@ -69,8 +69,8 @@ class Film {
   /// Memory of a film of this kind, in bytes per pixel.
   static std::size_t bytes_per_pixel(FilmLayers layers) noexcept;
 
-  /// Every accumulator as raw bytes, in a fixed order and with sizes that depend on size and layers alone. Copying
-  /// them to another film of the same size and layers copies the film bit for bit.
+  /// Every accumulator as raw bytes, in a fixed order and with sizes that depend on size and layers alone.
+  /// Copying them to another film of the same size and layers copies the film bit for bit.
   std::vector<std::span<const std::byte>> accumulators() const;
   std::vector<std::span<std::byte>> accumulators();
 

@@ -20,8 +20,9 @@ EnvironmentImage read_environment(const std::filesystem::path& path, const Image
       const float value = image.rgba[4 * i + c];
       if (!std::isfinite(value) || value < 0) {
         throw Error(ErrorCode::kBadFormat, path.string(),
-                    "has the value " + std::to_string(value) + " at pixel " + std::to_string(i % image.width) + "," +
-                        std::to_string(i / image.width) + "; expected finite radiance, 0 or more");
+                    "has the value " + std::to_string(value) + " at pixel " +
+                        std::to_string(i % image.width) + "," + std::to_string(i / image.width) +
+                        "; expected finite radiance, 0 or more");
       }
       environment.rgb.push_back(value);
     }

@@ -77,8 +77,8 @@ void copy_layers(const Pixels& pixels, const std::array<int, 4>& colors, Image& 
       image.layers.push_back({layer, {}, {}});
       sources.emplace_back();
     }
-    image.layers[static_cast<std::size_t>(at)].channels.push_back(dot == std::string::npos ? name
-                                                                                           : name.substr(dot + 1));
+    const std::string channel = dot == std::string::npos ? name : name.substr(dot + 1);
+    image.layers[static_cast<std::size_t>(at)].channels.push_back(channel);
     sources[static_cast<std::size_t>(at)].push_back(c);
   }
   const std::size_t stride = static_cast<std::size_t>(pixels.spec.nchannels);

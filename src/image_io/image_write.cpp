@@ -43,7 +43,8 @@ void write_rows(const char* format, OIIO::ImageSpec spec, OIIO::TypeDesc type, c
 // A file that says whether all of it was written; OpenImageIO's own does not when the disk is full.
 class OutputFile {
  public:
-  OutputFile(const fs::path& path, const fs::path& where) : file_(std::fopen(path.c_str(), "wb")), where_(where) {
+  OutputFile(const fs::path& path, const fs::path& where)
+      : file_(std::fopen(path.c_str(), "wb")), where_(where) {
     if (file_ == nullptr) fail_write();
   }
   ~OutputFile() {
@@ -98,7 +99,8 @@ OIIO::ImageSpec exr_spec(const Image& image, const fs::path& path) {
   check_size(path, image.rgba.size(), image.width, image.height, 4, "the picture");
   std::vector<std::string> names{"R", "G", "B", "A"};
   for (const ImageLayer& layer : image.layers) {
-    check_size(path, layer.values.size(), image.width, image.height, layer.channels.size(), "layer " + layer.name);
+    check_size(path, layer.values.size(), image.width, image.height, layer.channels.size(),
+               "layer " + layer.name);
     for (const std::string& channel : layer.channels) names.push_back(channel_name(layer, channel));
   }
   OIIO::ImageSpec spec(image.width, image.height, static_cast<int>(names.size()), OIIO::TypeDesc::FLOAT);

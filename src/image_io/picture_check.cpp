@@ -61,18 +61,22 @@ PictureFormat picture_format(const fs::path& path) {
 void check_picture_size(const fs::path& path, std::int64_t width, std::int64_t height, std::int64_t channels,
                         const ImageReadOptions& options) {
   const std::string size = fmt::format("{} x {} x {} channels", width, height, channels);
-  if (width < 1 || height < 1 || channels < 1 || width > kMaxSide || height > kMaxSide || channels > kMaxChannels) {
+  if (width < 1 || height < 1 || channels < 1 || width > kMaxSide || height > kMaxSide ||
+      channels > kMaxChannels) {
     fail(ErrorCode::kBadFormat, path,
-         fmt::format("is {}; expected 1 to {} each way and at most {} channels", size, kMaxSide, kMaxChannels));
+         fmt::format("is {}; expected 1 to {} each way and at most {} channels", size, kMaxSide,
+                     kMaxChannels));
   }
   const std::uint64_t pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
   const std::uint64_t file_bytes = fs::file_size(path);
   if (pixels * static_cast<std::uint64_t>(channels) > file_bytes * kMaxValuesPerByte) {
-    fail(ErrorCode::kBadFormat, path, fmt::format("says it is {}, which {} bytes cannot hold", size, file_bytes));
+    fail(ErrorCode::kBadFormat, path,
+         fmt::format("says it is {}, which {} bytes cannot hold", size, file_bytes));
   }
   // The values as decoded, and the same again sorted into colour and layers.
   const std::uint64_t bytes = pixels * (2 * static_cast<std::uint64_t>(channels) + 4) * sizeof(float);
-  const std::uint64_t limit = options.memory_limit_bytes > 0 ? options.memory_limit_bytes : available_memory_bytes();
+  const std::uint64_t limit =
+      options.memory_limit_bytes > 0 ? options.memory_limit_bytes : available_memory_bytes();
   if (bytes > limit) {
     fail(ErrorCode::kOutOfMemory, path,
          fmt::format("is {} and needs {} MiB; {} MiB are available", size, bytes >> 20, limit >> 20));

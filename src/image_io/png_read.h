@@ -5,8 +5,8 @@
 
 namespace voxlume {
 
-/// Reads a PNG picture of 1 to 16 bits as linear premultiplied floats. Values are taken as sRGB whatever the file says.
-/// Uses libpng itself: OpenImageIO's reader lets libpng write to standard error.
+/// Reads a PNG picture of 1 to 16 bits as linear premultiplied floats. Values are taken as sRGB whatever the
+/// file says. Uses libpng itself: OpenImageIO's reader lets libpng write to standard error.
 /// Throws Error: kFileNotFound, kBadFormat, kOutOfMemory.
 Image read_png(const std::filesystem::path& path, const ImageReadOptions& options);
 

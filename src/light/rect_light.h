@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/vec.h"
 #include "light/lights_view.h"
@@ -41,14 +42,23 @@ inline float rect_solid_angle(const RectFromPoint& r) noexcept {
   return 2.0f * (std::atan2(volume, abc) + std::atan2(volume, acd));
 }
 
-/// Where sampling by solid angle is stable; elsewhere the light's area is sampled.
-inline bool rect_samples_solid_angle(float solid_angle) noexcept {
-  return solid_angle >= 1e-4f && solid_angle <= 6.2f;
+/// How a rect is sampled from a point. Solid angle is best where floats allow it. Far away the light's area is sampled;
+/// close to its plane, where the area's density has no bound, the hemisphere toward it.
+enum class RectSampling { kArea, kSolidAngle, kHemisphere };
+
+inline RectSampling rect_sampling(float solid_angle) noexcept {
+  return solid_angle < 1e-4f  ? RectSampling::kArea
+         : solid_angle > 6.2f ? RectSampling::kHemisphere
+                              : RectSampling::kSolidAngle;
 }
 
 /// Density (1/sr) of sampling the rect's point at distance `distance_mm`.
 inline float rect_pdf(const RectFromPoint& r, float solid_angle, float distance_mm) noexcept {
-  if (rect_samples_solid_angle(solid_angle)) return 1.0f / solid_angle;
+  switch (rect_sampling(solid_angle)) {
+    case RectSampling::kSolidAngle: return 1.0f / solid_angle;
+    case RectSampling::kHemisphere: return 0.5f * std::numbers::inv_pi_v<float>;
+    case RectSampling::kArea: break;
+  }
   const float area = (r.x1 - r.x0) * (r.y1 - r.y0);
   return distance_mm * distance_mm * distance_mm / (std::abs(r.height) * area);
 }
@@ -56,6 +66,15 @@ inline float rect_pdf(const RectFromPoint& r, float solid_angle, float distance_
 struct RectPoint {
   float x, y;  ///< in the axes of RectFromPoint
 };
+
+/// Where the direction that u0, u1 stand for, uniform over the hemisphere toward the rect's plane, meets that plane: not
+/// always inside the rect.
+inline RectPoint sample_rect_hemisphere(const RectFromPoint& r, float u0, float u1) noexcept {
+  const float cosine = 1.0f - u0;  // never 0
+  const float radius = std::abs(r.height) * std::sqrt(u0 * (1.0f + cosine)) / cosine;
+  const float phi = 2.0f * std::numbers::pi_v<float> * u1;
+  return {radius * std::cos(phi), radius * std::sin(phi)};
+}
 
 /// The point of the rect that u0, u1 stand for, uniform in solid angle.
 inline RectPoint sample_rect_solid_angle(const RectFromPoint& r, float solid_angle, float u0,
@@ -84,6 +103,16 @@ inline RectPoint sample_rect_solid_angle(const RectFromPoint& r, float solid_ang
   const float h = h0 + u1 * (h1 - h0);
   const float y_raw = h * std::sqrt(d2) / std::sqrt(std::max((1.0f - h) * (1.0f + h), 1e-20f));
   return {x, std::clamp(y_raw, r.y0, r.y1)};
+}
+
+/// The point of the rect that u0, u1 stand for, with density rect_pdf; outside the rect: none.
+inline RectPoint sample_rect(const RectFromPoint& r, float solid_angle, float u0, float u1) noexcept {
+  switch (rect_sampling(solid_angle)) {
+    case RectSampling::kSolidAngle: return sample_rect_solid_angle(r, solid_angle, u0, u1);
+    case RectSampling::kHemisphere: return sample_rect_hemisphere(r, u0, u1);
+    case RectSampling::kArea: break;
+  }
+  return {r.x0 + u0 * (r.x1 - r.x0), r.y0 + u1 * (r.y1 - r.y0)};
 }
 
 }  // namespace voxlume

@@ -34,9 +34,8 @@ inline LightSample sample_rect_light(const Light& light, Vec3f p_world, float u0
   const RectFromPoint r = rect_from_point(light, p_world);
   if (!rect_emits_toward(light, r.height)) return no_light();
   const float solid_angle = rect_solid_angle(r);
-  const RectPoint q = rect_samples_solid_angle(solid_angle)
-                          ? sample_rect_solid_angle(r, solid_angle, u0, u1)
-                          : RectPoint{r.x0 + u0 * (r.x1 - r.x0), r.y0 + u1 * (r.y1 - r.y0)};
+  const RectPoint q = sample_rect(r, solid_angle, u0, u1);
+  if (q.x < r.x0 || q.x > r.x1 || q.y < r.y0 || q.y > r.y1) return no_light();
   const Vec3f to_light = light.axis_x * q.x + light.axis_y * q.y - light.direction * r.height;
   const float distance_mm = length(to_light);
   return {to_light * (1.0f / distance_mm), distance_mm, light.emission, rect_pdf(r, solid_angle, distance_mm),

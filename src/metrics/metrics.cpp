@@ -34,7 +34,8 @@ void check_finite(const Image& image, const char* which) {
 void check_pair(const Image& image, const Image& reference) {
   if (image.width != reference.width || image.height != reference.height) {
     throw Error(ErrorCode::kBadParameter, "",
-                "sizes differ: " + size_text(image) + " and " + size_text(reference) + "; expected equal sizes");
+                "sizes differ: " + size_text(image) + " and " + size_text(reference) +
+                    "; expected equal sizes");
   }
   if (image.width < 1 || image.height < 1) {
     throw Error(ErrorCode::kBadParameter, "", "the pictures are empty; expected at least one pixel");
@@ -110,7 +111,9 @@ std::vector<double> windowed_product(const std::vector<double>& a, const std::ve
   }
   std::vector<double> out(static_cast<std::size_t>(columns) * rows);
   for (std::size_t i = 0; i < out.size(); ++i) {
-    for (int k = 0; k < kWindow; ++k) out[i] += weights[k] * across[i + static_cast<std::size_t>(k) * columns];
+    for (int k = 0; k < kWindow; ++k) {
+      out[i] += weights[k] * across[i + static_cast<std::size_t>(k) * columns];
+    }
   }
   return out;
 }

@@ -150,7 +150,9 @@ void save_checkpoint(const RenderState& state, const std::string& fingerprint, c
     const Crc total = crc;
     write(bytes_of(total));
     file.close();
-    if (!file) throw Error(ErrorCode::kInternal, path.string(), "cannot be written (disk full or no permission?)");
+    if (!file) {
+      throw Error(ErrorCode::kInternal, path.string(), "cannot be written (disk full or no permission?)");
+    }
   });
 }
 

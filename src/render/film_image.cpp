@@ -16,12 +16,24 @@ struct LayerKind {
 
 const std::vector<LayerKind>& layer_kinds() {
   static const std::vector<LayerKind> kinds = {
-      {"alpha", {"Y"}, {}, [](const Film& f, int x, int y) { return Vec3d(f.alpha(x, y)); }},
-      {"depth", {"Z"}, {.depth = true}, [](const Film& f, int x, int y) { return Vec3d(f.depth_mm(x, y)); }},
-      {"normal", {"X", "Y", "Z"}, {.normal = true}, [](const Film& f, int x, int y) { return f.normal(x, y); }},
-      {"albedo", {"R", "G", "B"}, {.albedo = true}, [](const Film& f, int x, int y) { return f.albedo(x, y); }},
-      {"samples", {"Y"}, {}, [](const Film& f, int x, int y) { return Vec3d(f.sample_count(x, y)); }},
-      {"variance", {"Y"}, {}, [](const Film& f, int x, int y) { return Vec3d(f.variance_of_mean(x, y)); }},
+      {"alpha", {"Y"}, {}, [](const Film& film, int x, int y) { return Vec3d(film.alpha(x, y)); }},
+      {"depth",
+       {"Z"},
+       {.depth = true},
+       [](const Film& film, int x, int y) { return Vec3d(film.depth_mm(x, y)); }},
+      {"normal",
+       {"X", "Y", "Z"},
+       {.normal = true},
+       [](const Film& film, int x, int y) { return film.normal(x, y); }},
+      {"albedo",
+       {"R", "G", "B"},
+       {.albedo = true},
+       [](const Film& film, int x, int y) { return film.albedo(x, y); }},
+      {"samples", {"Y"}, {}, [](const Film& film, int x, int y) { return Vec3d(film.sample_count(x, y)); }},
+      {"variance",
+       {"Y"},
+       {},
+       [](const Film& film, int x, int y) { return Vec3d(film.variance_of_mean(x, y)); }},
   };
   return kinds;
 }

@@ -26,7 +26,9 @@ double seconds_between(Clock::time_point begin, Clock::time_point end) {
   return std::chrono::duration<double>(end - begin).count();
 }
 
-[[noreturn]] void fail_option(const std::string& message) { throw Error(ErrorCode::kBadParameter, "", message); }
+[[noreturn]] void fail_option(const std::string& message) {
+  throw Error(ErrorCode::kBadParameter, "", message);
+}
 
 void check_options(const RenderState& state, const RenderLoopOptions& options, std::size_t tile_count) {
   const StopRule& stop = options.stop;
@@ -41,7 +43,8 @@ void check_options(const RenderState& state, const RenderLoopOptions& options, s
     fail_option("noise " + std::to_string(*stop.noise) + "; expected more than 0");
   }
   if (state.tile_size < 1 || state.tile_size > kMaxTileSize) {
-    fail_option("tile size " + std::to_string(state.tile_size) + "; expected 1 to " + std::to_string(kMaxTileSize));
+    fail_option("tile size " + std::to_string(state.tile_size) + "; expected 1 to " +
+                std::to_string(kMaxTileSize));
   }
   if (options.tile_order.empty()) return;
   std::vector<int> sorted = options.tile_order;
@@ -71,7 +74,8 @@ class Loop {
       : state_(state), trace_(trace), options_(options),
         tiles_(make_tiles(state.film.width(), state.film.height(), std::max(state.tile_size, 1))),
         pixel_count_(static_cast<double>(state.film.pixel_count())),
-        initial_samples_(static_cast<double>(state.film.total_samples())), initial_elapsed_s_(state.elapsed_s) {
+        initial_samples_(static_cast<double>(state.film.total_samples())),
+        initial_elapsed_s_(state.elapsed_s) {
     check_options(state, options, tiles_.size());
     for (const TileRect& tile : tiles_) {
       counts_.push_back(static_cast<int>(state.film.sample_count(tile.x0, tile.y0)));
@@ -116,10 +120,14 @@ class Loop {
     return time_over();
   }
 
-  bool cancelled() const { return options_.cancel != nullptr && options_.cancel->load(std::memory_order_relaxed); }
+  bool cancelled() const {
+    return options_.cancel != nullptr && options_.cancel->load(std::memory_order_relaxed);
+  }
 
   // Every pixel has a sample, whatever the limit.
-  bool time_over() const { return options_.stop.seconds && least_ > 0 && elapsed_s() >= *options_.stop.seconds; }
+  bool time_over() const {
+    return options_.stop.seconds && least_ > 0 && elapsed_s() >= *options_.stop.seconds;
+  }
 
   bool checkpoint_due() const {
     // The floor leaves time to go on between two checkpoints.
@@ -141,7 +149,7 @@ class Loop {
       // Short passes toward the end, so that tiles differ little when time is over.
       const double rate = static_cast<double>(traced_) / seconds_between(start_, Clock::now());
       const double affordable = std::max(0.0, *options_.stop.seconds - elapsed_s()) * rate / pixel_count_;
-      target = std::min(target, least_ + std::max(1, static_cast<int>(std::min(affordable, double{kPassCap}))));
+      target = std::min(target, least_ + static_cast<int>(std::clamp(affordable, 1.0, double{kPassCap})));
     }
     return target;
   }
@@ -172,7 +180,8 @@ class Loop {
     const double samples = static_cast<double>(traced_), busy_s = static_cast<double>(busy_ns_) * 1e-9;
     if (samples == 0) return 1;
     if (busy_s == 0) return kPassCap;
-    return static_cast<int>(std::clamp(kRunSeconds * samples / busy_s / tile.pixel_count(), 1.0, double{kPassCap}));
+    const double run = kRunSeconds * samples / busy_s / tile.pixel_count();
+    return static_cast<int>(std::clamp(run, 1.0, double{kPassCap}));
   }
 
   // Called by the reporter's thread while others trace.
@@ -227,7 +236,8 @@ std::vector<TileRect> make_tiles(int width, int height, int tile_size) {
   return tiles;
 }
 
-RenderOutcome run_render_loop(RenderState& state, const TraceFunction& trace, const RenderLoopOptions& options) {
+RenderOutcome run_render_loop(RenderState& state, const TraceFunction& trace,
+                              const RenderLoopOptions& options) {
   return Loop(state, trace, options).run();
 }
 

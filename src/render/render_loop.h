@@ -12,19 +12,19 @@
 
 namespace voxlume {
 
-/// Traces samples sample_begin <= s < sample_end of every pixel of the tile and adds them to the film, each pixel's in
-/// increasing order. Called on several threads, for different tiles. What it adds may depend on pixel and sample
-/// alone.
+/// Traces samples sample_begin <= s < sample_end of every pixel of the tile and adds them to the film, each
+/// pixel's in increasing order. Called on several threads, for different tiles. What it adds may depend on
+/// pixel and sample alone.
 using TraceFunction =
     std::function<void(const TileRect&, int sample_begin, int sample_end, Film&, TraceCounters&)>;
 
-/// All that a render has come to; what a checkpoint holds. The samples taken so far are the film's counts: the pixels
-/// of a tile have the same count, and their next sample has that index.
+/// All that a render has come to; what a checkpoint holds. The samples taken so far are the film's counts:
+/// the pixels of a tile have the same count, and their next sample has that index.
 struct RenderState {
   Film film;
   TraceCounters counters;
   double elapsed_s = 0;  ///< first to last sample, without the time between interruption and resumption
-  int tile_size = 32;    ///< edge of a tile in pixels, 1..65536
+  int tile_size = 16;    ///< edge of a tile in pixels, 1..65536
 };
 
 struct RenderLoopOptions {
@@ -48,13 +48,15 @@ std::vector<TileRect> make_tiles(int width, int height, int tile_size);
 
 /// Adds samples to `state` until a stop rule is reached or the caller cancels.
 ///
-/// Work is done in passes that bring every tile to the same count: 1, 2, 4, 8, 16, 32, 64, 96, ... samples. Within a pass
-/// a tile advances in runs of samples short enough that cancellation and the time limit are seen within a fraction
-/// of a second, and is left with whole samples. Passes and runs are scheduling only: the film's sums are the same
-/// for any threads, tile size, tile order and interruptions, and so is the outcome of the spp and noise rules.
+/// Work is done in passes that bring every tile to the same count: 1, 2, 4, 8, 16, 32, 64, 96, ... samples.
+/// Within a pass a tile advances in runs of samples short enough that cancellation and the time limit are
+/// seen within a fraction of a second, and is left with whole samples. Passes and runs are scheduling only:
+/// the film's sums are the same for any threads, tile size, tile order and interruptions, and so is the
+/// outcome of the spp and noise rules.
 ///
 /// With a checkpoint path the state is saved there every interval and on cancellation.
 /// Throws Error kBadParameter for a wrong option, and whatever `trace`, `progress` and the checkpoint throw.
-RenderOutcome run_render_loop(RenderState& state, const TraceFunction& trace, const RenderLoopOptions& options);
+RenderOutcome run_render_loop(RenderState& state, const TraceFunction& trace,
+                              const RenderLoopOptions& options);
 
 }  // namespace voxlume

@@ -66,7 +66,9 @@ nlohmann::json to_json(const RenderStatistics& s) {
   };
 }
 
-std::uint64_t peak_rss_bytes() { return std::max(max_rss_bytes(RUSAGE_SELF), max_rss_bytes(RUSAGE_CHILDREN)); }
+std::uint64_t peak_rss_bytes() {
+  return std::max(max_rss_bytes(RUSAGE_SELF), max_rss_bytes(RUSAGE_CHILDREN));
+}
 
 void write_statistics(const RenderStatistics& statistics, const std::filesystem::path& path) {
   write_file_atomically(path, to_json(statistics).dump(2) + "\n");

@@ -8,8 +8,8 @@
 
 namespace voxlume {
 
-/// Statistics with everything filled in that the state of a render knows; times of loading, threads, simd, seed and
-/// version are the caller's.
+/// Statistics with everything filled in that the state of a render knows; times of loading, threads, simd,
+/// seed and version are the caller's.
 RenderStatistics statistics_from(const RenderState& state);
 
 /// The keys of `--stats`: the fields of RenderStatistics, and the rates steps_per_s and paths_per_s.

@@ -22,7 +22,8 @@ void check_field(T, const FieldInfo&, const std::string&) {}
 template <IntegerField T>
 void check_field(T value, const FieldInfo& info, const std::string& where) {
   // The only bound of a 64-bit unsigned field is its type.
-  if constexpr (!std::is_same_v<T, std::uint64_t>) check_integer(static_cast<std::int64_t>(value), info, where);
+  if constexpr (!std::is_same_v<T, std::uint64_t>)
+    check_integer(static_cast<std::int64_t>(value), info, where);
 }
 template <TupleField T>
 void check_field(const T& value, const FieldInfo& info, const std::string& where);
@@ -37,18 +38,20 @@ void check_field(const T& value, const FieldInfo& info, const std::string& where
 
 template <TupleField T>
 void check_field(const T& value, const FieldInfo& info, const std::string& where) {
-  for (std::size_t i = 0; i < value.size(); ++i) check_field(value[i], info, child_address(where, std::to_string(i)));
+  for (std::size_t i = 0; i < value.size(); ++i)
+    check_field(value[i], info, child_address(where, std::to_string(i)));
 }
 template <ListField T>
 void check_field(const T& value, const FieldInfo& info, const std::string& where) {
   if (value.size() > info.max_count) fail_count(value.size(), info, where);
-  for (std::size_t i = 0; i < value.size(); ++i) check_field(value[i], info, child_address(where, std::to_string(i)));
+  for (std::size_t i = 0; i < value.size(); ++i)
+    check_field(value[i], info, child_address(where, std::to_string(i)));
 }
 template <StructField T>
 void check_field(const T& value, const FieldInfo&, const std::string& where) {
-  visit_fields([&](const FieldInfo& info, auto member) {
-    check_field(value.*member, info, child_address(where, info.key));
-  }, Struct<T>{});
+  visit_fields([&](const FieldInfo& info,
+                   auto member) { check_field(value.*member, info, child_address(where, info.key)); },
+               Struct<T>{});
 }
 
 }  // namespace voxlume

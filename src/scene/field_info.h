@@ -47,15 +47,25 @@ struct WordChoices {
 /// What is known of a field of the scene besides its C++ type. The reader, the writer, the checks, the JSON
 /// schema and the reference are all made from it.
 struct FieldInfo {
-  const char* key;                       ///< in the scene file
-  const char* doc;                       ///< one sentence
-  const char* unit = "";                 ///< "mm", "1/mm", "degrees", ... or empty
+  const char* key;        ///< in the scene file
+  const char* doc;        ///< one sentence
+  const char* unit = "";  ///< "mm", "1/mm", "degrees", ... or empty
   NumberRange range{};
-  const WordChoices* words = nullptr;    ///< text fields (or lists of text) with a fixed vocabulary
-  const char* absent = "";               ///< optional fields: what holds where the key is absent
-  std::size_t max_count = 4096;          ///< lists: most elements
-  bool required = false;                 ///< must be in the file, and is always written
-  bool is_path = false;                  ///< text naming a file: relative ones belong to the scene's folder
+  const WordChoices* words = nullptr;  ///< text fields (or lists of text) with a fixed vocabulary
+  const char* absent = "";             ///< optional fields: what holds where the key is absent
+  std::size_t max_count = 4096;        ///< lists: most elements
+  bool required = false;               ///< must be in the file, and is always written
+  bool is_path = false;                ///< text naming a file: relative ones belong to the scene's folder
+};
+
+/// Names the struct whose table is meant.
+template <class T>
+struct Struct {};
+
+/// Title and one paragraph of a struct, for the schema and the reference.
+struct StructInfo {
+  const char* name;
+  const char* doc;
 };
 
 /// Names of enumerators, in the order of the enumeration.

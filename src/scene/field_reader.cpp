@@ -10,15 +10,21 @@ using nlohmann::json;
 
 std::string describe_json(const json& value) {
   switch (value.type()) {
-    case json::value_t::string: return quote_text(value.get_ref<const std::string&>());
-    case json::value_t::object: return "an object";
-    case json::value_t::array: return fmt::format("a list of {}", value.size());
+    case json::value_t::string:
+      return quote_text(value.get_ref<const std::string&>());
+    case json::value_t::object:
+      return "an object";
+    case json::value_t::array:
+      return fmt::format("a list of {}", value.size());
     // Not dump(): it writes null for what is not finite.
-    case json::value_t::number_float: return fmt::format("{}", value.get<double>());
+    case json::value_t::number_float:
+      return fmt::format("{}", value.get<double>());
     case json::value_t::number_integer:
     case json::value_t::number_unsigned:
-    case json::value_t::boolean: return value.dump();
-    default: return "null";
+    case json::value_t::boolean:
+      return value.dump();
+    default:
+      return "null";
   }
 }
 
@@ -34,8 +40,10 @@ namespace {
 int hex_byte(const std::string& text, std::size_t i) {
   int byte = 0;
   for (const char c : {text[i], text[i + 1]}) {
-    const int digit = c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10
-                      : c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
+    const int digit = c >= '0' && c <= '9'   ? c - '0'
+                      : c >= 'a' && c <= 'f' ? c - 'a' + 10
+                      : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                             : -1;
     if (digit < 0) return -1;
     byte = byte * 16 + digit;
   }
@@ -83,11 +91,13 @@ void FieldReader::read(const json& value, const FieldInfo&, const std::string& w
 }
 
 void FieldReader::read(const json& value, const FieldInfo& info, const std::string& where, std::string& out) {
-  if (!value.is_string()) fail(value, where, info.words ? "one of " + join_words(info.words->available) : "text");
+  if (!value.is_string())
+    fail(value, where, info.words ? "one of " + join_words(info.words->available) : "text");
   out = value.get<std::string>();
   if (out.size() > 4096) fail(value, where, "at most 4096 bytes of text");
   for (const char c : out) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) fail(value, where, "text without control characters");
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F)
+      fail(value, where, "text without control characters");
   }
 }
 

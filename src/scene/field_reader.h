@@ -15,7 +15,8 @@ std::string describe_json(const nlohmann::json& value);
 Color read_color(const nlohmann::json& value, const std::string& where);
 
 /// Turns JSON into a description by the field table. Checks types, keys and list lengths; number ranges and
-/// rules between fields are validate_scene's. `where` names the value in every Error: "scene.json: /image/spp".
+/// rules between fields are validate_scene's. `where` names the value in every Error: "scene.json:
+/// /image/spp".
 class FieldReader {
  public:
   using json = nlohmann::json;
@@ -46,9 +47,11 @@ class FieldReader {
   template <ListField T>
   static void read(const json& value, const FieldInfo& info, const std::string& where, T& out) {
     if (!value.is_array()) fail(value, where, "a list");
-    if (value.size() > info.max_count) fail(value, where, "at most " + std::to_string(info.max_count) + " elements");
+    if (value.size() > info.max_count)
+      fail(value, where, "at most " + std::to_string(info.max_count) + " elements");
     out.assign(value.size(), {});
-    for (std::size_t i = 0; i < value.size(); ++i) read(value[i], info, child_address(where, std::to_string(i)), out[i]);
+    for (std::size_t i = 0; i < value.size(); ++i)
+      read(value[i], info, child_address(where, std::to_string(i)), out[i]);
   }
 
   template <TupleField T>
@@ -56,7 +59,8 @@ class FieldReader {
     if (!value.is_array() || value.size() != out.size()) {
       fail(value, where, "a list of " + std::to_string(out.size()) + " numbers");
     }
-    for (std::size_t i = 0; i < out.size(); ++i) read(value[i], info, child_address(where, std::to_string(i)), out[i]);
+    for (std::size_t i = 0; i < out.size(); ++i)
+      read(value[i], info, child_address(where, std::to_string(i)), out[i]);
   }
 
   template <EnumField T>
@@ -84,7 +88,8 @@ class FieldReader {
       out = static_cast<T>(x);
     } else if (value.is_number_integer()) {
       const auto x = value.get<std::int64_t>();
-      if (x < 0 && (!Limits::is_signed || x < static_cast<std::int64_t>(Limits::min()))) fail(value, where, expected);
+      if (x < 0 && (!Limits::is_signed || x < static_cast<std::int64_t>(Limits::min())))
+        fail(value, where, expected);
       out = static_cast<T>(x);
     } else if (value.is_number_float()) {
       // 16.0 is a whole number to JSON Schema; beyond 2^31 a fraction could have been lost.
@@ -107,7 +112,8 @@ class FieldReader {
 
  private:
   /// Throws Error: the first key of `object` that is not in `known`, with the nearest one that is.
-  static void check_keys(const json& object, const std::string& where, const std::vector<std::string_view>& known);
+  static void check_keys(const json& object, const std::string& where,
+                         const std::vector<std::string_view>& known);
   [[noreturn]] static void fail(const json& found, const std::string& where, const std::string& expected);
 };
 

@@ -35,7 +35,9 @@ concept IntegerField = std::is_integral_v<T> && !std::is_same_v<T, bool>;
 template <class T>
 concept EnumField = std::is_enum_v<T>;
 template <class T>
-concept StructField = requires { struct_info(Struct<T>{}); };
+concept StructField = requires {
+  struct_info(Struct<T>{});
+};
 
 /// The keys of a struct, in file order.
 template <StructField T>

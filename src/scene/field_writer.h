@@ -33,17 +33,19 @@ struct FieldWriter {
     return out;
   }
   template <class T>
-    requires(ListField<T> || TupleField<T>)
-  OrderedJson json(const T& value) const {
+  requires(ListField<T> || TupleField<T>) OrderedJson json(const T& value)
+  const {
     OrderedJson out = OrderedJson::array();
     for (const auto& element : value) out.push_back(json(element));
     return out;
   }
   template <EnumField T>
-  OrderedJson json(T value) const { return enum_word(value); }
+  OrderedJson json(T value) const {
+    return enum_word(value);
+  }
   template <class T>
-    requires(std::is_arithmetic_v<T> || std::is_same_v<T, std::string>)
-  OrderedJson json(const T& value) const { return value; }
+  requires(std::is_arithmetic_v<T> || std::is_same_v<T, std::string>) OrderedJson json(const T& value)
+  const { return value; }
   OrderedJson json(const Color& value) const { return color_json(value); }
 };
 

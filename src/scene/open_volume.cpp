@@ -15,8 +15,8 @@ void check_orthonormal(const std::array<double, 9>& direction) {
     for (int b = a; b < 3; ++b) {
       if (!(std::abs(dot(column(a), column(b)) - (a == b ? 1.0 : 0.0)) < 1e-4)) {
         throw Error(ErrorCode::kBadParameter, "/volume/direction",
-                    "expected orthonormal columns; columns " + std::to_string(a) + " and " + std::to_string(b) +
-                        " are not");
+                    "expected orthonormal columns; columns " + std::to_string(a) + " and " +
+                        std::to_string(b) + " are not");
       }
     }
   }

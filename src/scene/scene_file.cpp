@@ -52,8 +52,9 @@ json parse_json(std::string_view text, const std::string& where) {
     if (event == json::parse_event_t::object_start) keys.emplace_back();
     if (event == json::parse_event_t::object_end) keys.pop_back();
     if (event == json::parse_event_t::key && !keys.back().insert(parsed.get<std::string>()).second) {
-      throw Error(ErrorCode::kBadFormat, where,
-                  "found the key " + quote_text(parsed.get_ref<const std::string&>()) + " twice in one object");
+      throw Error(
+          ErrorCode::kBadFormat, where,
+          "found the key " + quote_text(parsed.get_ref<const std::string&>()) + " twice in one object");
     }
     return true;
   };
@@ -81,11 +82,12 @@ void check_version(const json& root, const std::string& where) {
                 fmt::format("missing key \"version\"; this program writes version {}", kSceneVersion));
   }
   int number = 0;
-  FieldReader::read(*version, FieldInfo{.key = "version", .doc = "", .range = at_least(1)}, where + "version", number);
+  FieldReader::read(*version, FieldInfo{.key = "version", .doc = "", .range = at_least(1)}, where + "version",
+                    number);
   if (number > kSceneVersion) {
     throw Error(ErrorCode::kUnsupported, where + "version",
-                fmt::format("found version {}, expected at most {}: the scene is from a newer voxlume", number,
-                            kSceneVersion));
+                fmt::format("found version {}, expected at most {}: the scene is from a newer voxlume",
+                            number, kSceneVersion));
   }
 }
 
@@ -109,7 +111,8 @@ SceneDescription parse_scene(std::string_view text, const std::string& where) {
 SceneDescription read_scene(const fs::path& path) {
   const std::string where = path.string();
   std::error_code ignored;
-  if (fs::is_directory(path, ignored)) throw Error(ErrorCode::kFileNotFound, where, "is a folder, not a scene file");
+  if (fs::is_directory(path, ignored))
+    throw Error(ErrorCode::kFileNotFound, where, "is a folder, not a scene file");
   std::ifstream file(path, std::ios::binary);
   if (!file) throw Error(ErrorCode::kFileNotFound, where, std::strerror(errno));
   std::string text;

@@ -65,7 +65,9 @@ std::string type_text(const FieldInfo& info) {
   } else if constexpr (std::is_same_v<T, bool>) {
     return "true, false";
   } else if constexpr (std::is_same_v<T, std::string>) {
-    return info.words ? fmt::format("`{}`", fmt::join(info.words->available, "` `")) : info.is_path ? "path" : "text";
+    return info.words     ? fmt::format("`{}`", fmt::join(info.words->available, "` `"))
+           : info.is_path ? "path"
+                          : "text";
   } else {
     return IntegerField<T> ? "whole number" : "number";
   }
@@ -79,7 +81,7 @@ std::string cell(std::string_view text) {
 }
 
 template <class M, StructField T>
-std::string default_text(const FieldInfo& info, M T::* member) {
+std::string default_text(const FieldInfo& info, M T::*member) {
   if (info.required) return "required";
   if constexpr (OptionalField<M>) return *info.absent ? std::string("absent: ") + info.absent : "absent";
   if constexpr (StructField<M>) return "";
@@ -108,10 +110,11 @@ struct Sections {
     const StructInfo title = struct_info(Struct<T>{});
     if (std::find(names.begin(), names.end(), title.name) != names.end()) return;
     names.push_back(title.name);
-    text += fmt::format("\n## {}\n\n{}\n\n| key | type | range, unit | default | meaning |\n|---|---|---|---|---|\n",
-                        title.name, title.doc);
+    text += fmt::format(
+        "\n## {}\n\n{}\n\n| key | type | range, unit | default | meaning |\n|---|---|---|---|---|\n",
+        title.name, title.doc);
     visit_fields(
-        [&]<class M>(const FieldInfo& info, M T::* member) {
+        [&]<class M>(const FieldInfo& info, M T::*member) {
           std::string range = range_text(info.range);
           if (*info.unit) range += (range.empty() ? "" : " ") + std::string(info.unit);
           text += fmt::format("| `{}` | {} | {} | {} | {} |\n", info.key, type_text<M>(info), range,

@@ -27,7 +27,9 @@ OrderedJson value_schema(const FieldInfo& info) {
   } else if constexpr (StructField<T>) {
     return reference(struct_info(Struct<T>{}).name);
   } else if constexpr (ListField<T>) {
-    return {{"type", "array"}, {"items", value_schema<typename T::value_type>(info)}, {"maxItems", info.max_count}};
+    return {{"type", "array"},
+            {"items", value_schema<typename T::value_type>(info)},
+            {"maxItems", info.max_count}};
   } else if constexpr (TupleField<T>) {
     const std::size_t count = std::tuple_size_v<T>;
     return {{"type", "array"},
@@ -71,7 +73,7 @@ OrderedJson struct_schema(OrderedJson& definitions) {
   OrderedJson properties = OrderedJson::object();
   OrderedJson required = OrderedJson::array();
   visit_fields(
-      [&]<class M>(const FieldInfo& info, M T::* member) {
+      [&]<class M>(const FieldInfo& info, M T::*member) {
         OrderedJson property = value_schema<M>(info);
         property["description"] = description(info);
         if constexpr (!OptionalField<M> && !StructField<M>) {
@@ -97,7 +99,8 @@ void add_definition(OrderedJson& definitions) {
 }
 
 OrderedJson color_schema() {
-  const OrderedJson channels = {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 3}, {"maxItems", 3}};
+  const OrderedJson channels = {
+      {"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 3}, {"maxItems", 3}};
   OrderedJson encoded = channels;
   encoded["items"] = {{"type", "number"}, {"minimum", 0}, {"maximum", 1}};
   const OrderedJson linear = {{"type", "object"},
@@ -112,9 +115,11 @@ OrderedJson color_schema() {
 
 std::string scene_schema() {
   OrderedJson definitions = {{"Color", color_schema()}};
-  OrderedJson root = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "voxlume scene"}};
+  OrderedJson root = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
+                      {"title", "voxlume scene"}};
   OrderedJson scene = struct_schema<SceneDescription>(definitions);
-  scene["properties"]["$schema"] = {{"description", "Address of this schema, for editors."}, {"type", "string"}};
+  scene["properties"]["$schema"] = {{"description", "Address of this schema, for editors."},
+                                    {"type", "string"}};
   definitions["TransferPoint"]["not"] = {{"required", {"opacity", "mu_t_per_mm"}}};
   root.update(scene);
   root["$defs"] = definitions;

@@ -34,7 +34,8 @@ std::string print_inline(const OrderedJson& value) {
 void print(const OrderedJson& value, std::size_t indent, std::size_t key_width, std::string& out) {
   constexpr std::size_t kColumns = 100;
   const std::string line = print_inline(value);
-  if (!value.is_structured() || value.empty() || (indent > 0 && indent + key_width + line.size() < kColumns)) {
+  if (!value.is_structured() || value.empty() ||
+      (indent > 0 && indent + key_width + line.size() < kColumns)) {
     out += line;
     return;
   }

@@ -41,7 +41,8 @@ json number_list(std::string_view text) {
 
 json json_text(std::string_view text, const std::string& where) {
   const json value = json::parse(text.begin(), text.end(), nullptr, false);
-  if (value.is_discarded()) throw Error(ErrorCode::kBadParameter, where, "found " + quote_text(text) + ", expected JSON");
+  if (value.is_discarded())
+    throw Error(ErrorCode::kBadParameter, where, "found " + quote_text(text) + ", expected JSON");
   return value;
 }
 
@@ -76,7 +77,7 @@ json json_from_text(std::string_view text, const std::string& where) {
   const std::string nearest = nearest_word(key, known);
   throw Error(ErrorCode::kBadParameter, where,
               "unknown field " + quote_text(key) + "; " +
-                  (known.empty() ? "a plain value has no fields"
+                  (known.empty()     ? "a plain value has no fields"
                    : nearest.empty() ? "expected one of " + join_words(known)
                                      : "did you mean " + quote_text(nearest) + "?"));
 }
@@ -116,13 +117,14 @@ struct FieldSetter {
     descend(key, rest, info, *out);
   }
   template <class T>
-    requires(ListField<T> || TupleField<T>)
-  void descend(std::string_view key, std::string_view rest, const FieldInfo& info, T& out) const {
+  requires(ListField<T> || TupleField<T>) void descend(std::string_view key, std::string_view rest,
+                                                       const FieldInfo& info, T& out) const {
     std::size_t index = 0;
     const auto [stop, failed] = std::from_chars(key.data(), key.data() + key.size(), index);
     if (failed != std::errc{} || stop != key.data() + key.size() || index >= out.size()) {
-      throw Error(ErrorCode::kBadParameter, where,
-                  "found element " + quote_text(key) + ", expected one of the list's " + std::to_string(out.size()));
+      throw Error(
+          ErrorCode::kBadParameter, where,
+          "found element " + quote_text(key) + ", expected one of the list's " + std::to_string(out.size()));
     }
     set(rest, info, out[index]);
   }

@@ -40,7 +40,8 @@ void check_points(const TransferDescription& transfer, const std::string& where)
 }
 
 void check_direction(const std::optional<Double3>& v, const std::string& where) {
-  if (v && std::hypot((*v)[0], (*v)[1], (*v)[2]) < 1e-12) refuse(where, "found a zero vector, expected a direction");
+  if (v && std::hypot((*v)[0], (*v)[1], (*v)[2]) < 1e-12)
+    refuse(where, "found a zero vector, expected a direction");
 }
 
 void check_light(const LightDescription& light, const std::string& where) {
@@ -68,7 +69,8 @@ void check_light(const LightDescription& light, const std::string& where) {
 void check_clip(const ClipDescription& clip, const std::string& where) {
   const auto check = [&](const std::array<double, 2>& range, const char* key) {
     if (!(range[0] < range[1])) {
-      refuse(child_address(where, key), fmt::format("found [{}, {}], expected lower < upper", range[0], range[1]));
+      refuse(child_address(where, key),
+             fmt::format("found [{}, {}], expected lower < upper", range[0], range[1]));
     }
   };
   check(clip.x_mm, "x_mm");
@@ -113,7 +115,8 @@ void check_integer(std::int64_t value, const FieldInfo& info, const std::string&
 void check_field(const Color& value, const FieldInfo& info, const std::string& where) {
   for (const float channel : value.linear) {
     if (info.range.contains(channel)) continue;
-    refuse(where, fmt::format("found a linear channel of {}, expected {}", channel, expected_number("number", info)));
+    refuse(where, fmt::format("found a linear channel of {}, expected {}", channel,
+                              expected_number("number", info)));
   }
 }
 
@@ -123,7 +126,8 @@ void check_field(const std::string& value, const FieldInfo& info, const std::str
   if (std::find(available.begin(), available.end(), value) != available.end()) return;
   const auto& planned = info.words->planned;
   if (std::find(planned.begin(), planned.end(), value) != planned.end()) {
-    throw Error(ErrorCode::kUnsupported, where, value + " is not built yet; available: " + join_words(available));
+    throw Error(ErrorCode::kUnsupported, where,
+                value + " is not built yet; available: " + join_words(available));
   }
   refuse(where, "found " + quote_text(value) + ", expected one of " + join_words(available));
 }

@@ -16,7 +16,8 @@ constexpr float kMidGreyScale = 0.7231708f;
 float dither_threshold(int x, int y) {
   unsigned rank = 0;
   for (int bit = 0; bit < 3; ++bit) {
-    const unsigned x_bit = (static_cast<unsigned>(x) >> bit) & 1u, y_bit = (static_cast<unsigned>(y) >> bit) & 1u;
+    const unsigned x_bit = (static_cast<unsigned>(x) >> bit) & 1u;
+    const unsigned y_bit = (static_cast<unsigned>(y) >> bit) & 1u;
     rank = (rank << 2) | ((x_bit ^ y_bit) << 1) | y_bit;
   }
   return (static_cast<float>(rank) + 0.5f) / 64.0f;

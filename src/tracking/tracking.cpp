@@ -16,16 +16,19 @@ void visit_tentative_collisions(const Medium& medium, const IndexRay& ray, float
   while (walk.next(segment)) {
     if (segment.mu_maj <= 0) continue;
     const float inverse_majorant = 1.0f / segment.mu_maj;
-    float t = segment.t_near;
+    // Distances are summed from where the segment starts: far from the eye, t is coarser than the steps may be.
+    const float length_mm = segment.t_far - segment.t_near;
+    float entered_mm = 0;
     for (;;) {
-      const float t_next = t + tau * inverse_majorant;
-      if (!(t_next < segment.t_far)) break;
-      t = t_next;
+      const float next_mm = entered_mm + tau * inverse_majorant;
+      if (!(next_mm < length_mm)) break;
+      entered_mm = next_mm;
+      const float t = segment.t_near + entered_mm;
       const Vec3f p = ray.origin_index + ray.direction_index * t;
       if (visit(t, min(max(p, segment.cell.lower), segment.cell.upper), segment.mu_maj)) return;
       tau = sample_optical_depth(rng.next());
     }
-    const float left = tau - (segment.t_far - t) * segment.mu_maj;
+    const float left = tau - (length_mm - entered_mm) * segment.mu_maj;
     tau = left > 0 ? left : 0;
   }
 }

@@ -20,10 +20,15 @@
 #endif
 
 #ifdef VOXLUME_SANITIZED
-#include <sanitizer/allocator_interface.h>
-#include <sanitizer/common_interface_defs.h>
-
 #include <atomic>
+
+// From sanitizer/allocator_interface.h and common_interface_defs.h, which not every compiler package has.
+extern "C" {
+int __sanitizer_install_malloc_and_free_hooks(void (*)(const volatile void*, std::size_t),
+                                              void (*)(const volatile void*));
+std::size_t __sanitizer_get_allocated_size(const volatile void*);
+void __sanitizer_set_report_fd(void*);
+}
 #endif
 
 namespace voxlume {

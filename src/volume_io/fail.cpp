@@ -1,7 +1,5 @@
 #include "volume_io/fail.h"
 
-#include <regex>
-
 namespace voxlume {
 
 std::string one_line(std::string_view text) {
@@ -25,10 +23,24 @@ std::string one_line(std::string_view text) {
 
 std::string library_message(std::string_view what) {
   std::string text = one_line(what);
-  static const std::regex kSource(R"(^\S+:\d+:? )");
-  static const std::regex kObject(R"((ITK ERROR|ITK Error|itk::ERROR): ?|\w+\(0x[0-9a-fA-F]+\): ?)");
-  text = std::regex_replace(text, kSource, "", std::regex_constants::format_first_only);
-  return std::regex_replace(text, kObject, "");
+  // "/path/itkSomeImageIO.cxx:123: " at the start
+  const std::size_t source = text.find(".cxx:");
+  const std::size_t source_end = text.find(": ", source == std::string::npos ? 0 : source);
+  if (source != std::string::npos && source < text.find(' ') && source_end != std::string::npos) {
+    text.erase(0, source_end + 2);
+  }
+  for (const std::string_view noise : {"ITK ERROR: ", "itk::ERROR: ", "ITK Error: "}) {
+    if (const std::size_t at = text.find(noise); at != std::string::npos) text.erase(at, noise.size());
+  }
+  // "SomeImageIO(0x5581a0): "
+  for (std::size_t at = text.find("(0x"); at != std::string::npos; at = text.find("(0x")) {
+    const std::size_t end = text.find("): ", at);
+    if (end == std::string::npos) break;
+    const std::size_t space = text.rfind(' ', at);
+    const std::size_t start = space == std::string::npos ? 0 : space + 1;
+    text.erase(start, end + 3 - start);
+  }
+  return text;
 }
 
 void fail(ErrorCode code, const std::filesystem::path& where, std::string_view message) {

@@ -96,6 +96,21 @@ VolumeHeader read_itk_header(itk::ImageIOBase& io, const std::filesystem::path& 
   return header;
 }
 
+void read_itk_voxels(itk::ImageIOBase& io, const std::filesystem::path& path, void* voxels, std::uint64_t bytes) {
+  const unsigned dimensions = io.GetNumberOfDimensions();
+  itk::ImageIORegion region(dimensions);
+  for (unsigned a = 0; a < dimensions; ++a) region.SetSize(a, io.GetDimensions(a));
+  io.SetIORegion(region);
+  if (static_cast<std::uint64_t>(io.GetImageSizeInBytes()) != bytes) {
+    fail(ErrorCode::kInternal, path, "ITK and the header disagree about the size");
+  }
+  try {
+    io.Read(voxels);
+  } catch (const itk::ExceptionObject& error) {
+    fail(ErrorCode::kBadFormat, path, "the voxels cannot be read: " + library_message(error.GetDescription()));
+  }
+}
+
 std::string itk_modality(const itk::ImageIOBase& io) {
   std::string value;
   if (!itk::ExposeMetaData<std::string>(io.GetMetaDataDictionary(), "modality", value)) return {};

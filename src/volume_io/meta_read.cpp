@@ -6,6 +6,7 @@
 #include <string>
 
 #include "volume_io/fail.h"
+#include "volume_io/file_format.h"
 #include "volume_io/itk_header.h"
 #include "volume_io/itk_read.h"
 #include "volume_io/voxel_stream.h"

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <string>
@@ -14,21 +13,6 @@
 
 namespace voxlume {
 namespace {
-
-/// The "field: value" lines of an NRRD header.
-std::map<std::string, std::string> read_fields(const std::filesystem::path& path) {
-  constexpr int kMaxLines = 1000;
-  std::map<std::string, std::string> fields;
-  std::ifstream file(path, std::ios::binary);
-  std::string line;
-  for (int i = 0; i < kMaxLines && std::getline(file, line); ++i) {
-    if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (line.empty()) break;  // the header's end
-    const std::size_t colon = line.find(": ");
-    if (colon != std::string::npos && line[0] != '#') fields[line.substr(0, colon)] = line.substr(colon + 2);
-  }
-  return fields;
-}
 
 /// The vectors of three numbers in "(1,0,0) (0,1,0)"; none when something else stands there.
 std::optional<std::vector<std::array<double, 3>>> parse_vectors(const std::string& text) {
@@ -57,9 +41,9 @@ std::optional<std::vector<std::array<double, 3>>> parse_vectors(const std::strin
   return vectors;
 }
 
-void turn_from_las(const std::filesystem::path& path, std::map<std::string, std::string>& fields, Volume& volume) {
-  const auto axes = parse_vectors(fields["space directions"]);
-  const auto origin = parse_vectors(fields["space origin"]);
+void turn_from_las(const std::filesystem::path& path, const NrrdFields& fields, Volume& volume) {
+  const auto axes = parse_vectors(fields.value("spacedirections"));
+  const auto origin = parse_vectors(fields.value("spaceorigin"));
   if (!axes || axes->size() != 3 || !origin || origin->size() > 1) {
     fail(ErrorCode::kUnsupported, path, "left-anterior-superior space without three axis vectors and an origin");
   }
@@ -92,9 +76,8 @@ std::optional<double> unit_mm(const std::string& units) {
 
 }  // namespace
 
-void complete_nrrd_space(const std::filesystem::path& path, Volume& volume) {
-  std::map<std::string, std::string> fields = read_fields(path);
-  const std::string& space = fields["space"];
+void complete_nrrd_space(const std::filesystem::path& path, const NrrdFields& fields, Volume& volume) {
+  const std::string space = fields.value("space");
   const bool is_las = space == "left-anterior-superior" || space == "LAS";
   const bool is_anatomical = is_las || space == "right-anterior-superior" || space == "RAS" ||
                              space == "left-posterior-superior" || space == "LPS";
@@ -104,8 +87,8 @@ void complete_nrrd_space(const std::filesystem::path& path, Volume& volume) {
         fmt::format("the NRRD space \"{}\" has no patient directions; it is taken for left-posterior-superior",
                     one_line(space.substr(0, 40))));
   }
-  const std::string& units = fields.contains("space units") ? fields["space units"] : fields["units"];
-  const double mm = unit_mm(units).value_or(1);
+  const std::string space_units = fields.value("spaceunits");
+  const double mm = unit_mm(space_units.empty() ? fields.value("units") : space_units).value_or(1);
   for (int a = 0; a < 3; ++a) {
     volume.spacing_mm[a] *= mm;
     volume.origin_mm[a] *= mm;

@@ -76,8 +76,8 @@ std::unique_ptr<VolumeReader> open_reader(const std::filesystem::path& path) {
     case FileFormat::kTiff: return make_tiff_reader({path});
     case FileFormat::kVdb: return make_vdb_reader(path);
     case FileFormat::kDicom: return make_dicom_reader(path, {path});
-    case FileFormat::kHdf5: return make_itk_reader(path, FileFormat::kHdf5);
-    default: return make_itk_reader(path, FileFormat::kNrrd);
+    case FileFormat::kHdf5: return make_hdf5_reader(path);
+    default: return make_nrrd_reader(path);
   }
 }
 

@@ -22,9 +22,13 @@ Volume read_volume(const std::filesystem::path& path, const ReadOptions& options
     }
   }
   if (!options.raw) return read_isolated(path, options);
-  Volume volume = read_raw(path, *options.raw, options.memory_limit_bytes);
-  if (options.spacing_mm) volume.spacing_mm = *options.spacing_mm;
-  return volume;
+  try {
+    Volume volume = read_raw(path, *options.raw, options.memory_limit_bytes);
+    if (options.spacing_mm) volume.spacing_mm = *options.spacing_mm;
+    return volume;
+  } catch (const std::filesystem::filesystem_error& failure) {
+    fail(ErrorCode::kFileNotFound, path, "cannot be read: " + failure.code().message());
+  }
 }
 
 }  // namespace voxlume

@@ -15,10 +15,10 @@ namespace {
 
 thread_local std::string last_message;
 
-void keep_message(const char* module, const char* format, std::va_list arguments) {
+void keep_message(const char*, const char* format, std::va_list arguments) {
   char text[256];
   std::vsnprintf(text, sizeof(text), format, arguments);
-  last_message = fmt::format("{}: {}", module ? module : "libtiff", text);
+  last_message = text;
 }
 
 [[noreturn]] void fail_type(const std::filesystem::path& path, int bits, int sample_format) {

@@ -44,6 +44,10 @@ class TiffReader : public VolumeReader {
       slices = count_pages(first.get());
       contiguous_ = slices == 1 && info.slices > 1;
       if (contiguous_) slices = check_contiguous(info.slices);
+      if (slices < info.slices) {
+        fail(ErrorCode::kBadFormat, files_[0],
+             fmt::format("the description promises {} slices, the file has {}", info.slices, slices));
+      }
     } else {
       check_files();
     }

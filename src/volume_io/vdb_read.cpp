@@ -44,7 +44,8 @@ class VdbReader : public VolumeReader {
     set_geometry(volume);
     volume.format = format_name(FileFormat::kVdb);
     volume.type = VoxelType::kF32;
-    header.working_bytes = grid_->memUsage();
+    // The tree without its voxels: masks and inner nodes.
+    header.working_bytes = header.stored_bytes() / 8;
     if (grid_->getGridClass() == openvdb::GRID_LEVEL_SET) {
       volume.warnings.push_back("the grid is a level set: its values are distances, not densities");
     }

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cctype>
 #include <fstream>
+#include <sstream>
 #include <string>
 
 #include "volume_io/fail.h"
+#include "volume_io/file_format.h"
 #include "volume_io/itk_header.h"
 #include "volume_io/itk_read.h"
 #include "volume_io/voxel_stream.h"
@@ -18,6 +20,17 @@ struct VtkData {
   std::uint64_t offset_bytes = 0;
   bool binary = false;
 };
+
+/// ITK takes "DIMENSIONS 9 8 0" for a flat image.
+void check_dimensions_line(const std::filesystem::path& path, const std::string& line) {
+  std::istringstream words(line);
+  std::string word;
+  std::int64_t n[3] = {};
+  words >> word >> n[0] >> n[1] >> n[2];
+  if (!words || n[0] < 1 || n[1] < 1 || n[2] < 1) {
+    fail(ErrorCode::kBadFormat, path, fmt::format("\"{}\"; expected three whole numbers above 0", one_line(line)));
+  }
+}
 
 /// Where the numbers of the first SCALARS array begin, and whether they are binary.
 VtkData find_vtk_data(const std::filesystem::path& path) {
@@ -31,6 +44,7 @@ VtkData find_vtk_data(const std::filesystem::path& path) {
     if (line.starts_with("dataset") && line.find("structured_points") == std::string::npos) {
       fail(ErrorCode::kUnsupported, path, fmt::format("\"{}\"; expected DATASET STRUCTURED_POINTS", one_line(line)));
     }
+    if (line.starts_with("dimensions")) check_dimensions_line(path, line);
     if (!line.starts_with("scalars")) continue;
     data.offset_bytes = static_cast<std::uint64_t>(file.tellg());
     if (std::getline(file, line) && (line.starts_with("LOOKUP_TABLE") || line.starts_with("lookup_table"))) {

@@ -124,9 +124,7 @@ void write_folder(const Volume& volume, std::filesystem::path path) {
   move_file(target, path);
 }
 
-}  // namespace
-
-void write_volume(const Volume& volume, const std::filesystem::path& path) {
+void write_checked(const Volume& volume, const std::filesystem::path& path) {
   if (!volume.voxels) fail(ErrorCode::kBadParameter, path, "a volume without voxels cannot be written");
   Volume checked = volume;
   check_geometry(path, checked);
@@ -140,6 +138,20 @@ void write_volume(const Volume& volume, const std::filesystem::path& path) {
                      lower_extension(path), known_extensions()));
   }
   write_file(checked, path, *format);
+}
+
+}  // namespace
+
+void write_volume(const Volume& volume, const std::filesystem::path& path) {
+  try {
+    write_checked(volume, path);
+  } catch (const std::filesystem::filesystem_error& error) {
+    fail(ErrorCode::kInternal, path, "cannot be written: " + error.code().message());
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& error) {
+    fail(ErrorCode::kInternal, path, "cannot be written: " + library_message(error.what()));
+  }
 }
 
 }  // namespace voxlume

@@ -92,13 +92,15 @@ TYPED_TEST(Majorant, IsTheSupremumOverTheCellsVoxels) {
 }
 
 TEST(Majorants, SeeASpikeBetweenTwoVoxelValues) {
-  const Volume volume = make_volume<std::uint8_t>({9, 9, 9}, [](auto i, auto j, auto k) { return (i + j + k) % 2 * 100; });
+  const Volume volume =
+      make_volume<std::uint8_t>({9, 9, 9}, [](auto i, auto j, auto k) { return (i + j + k) % 2 * 100; });
   const TransferFunction function(mu_t_function({{49.9, 0}, {50, 7}, {50.1, 0}}));
   for (const int c : kCellSizes) {
     MajorantGrid majorants(make_grid_view(volume), c);
     majorants.update(function);
     const MajorantView view = majorants.view();
-    for (int n = 0; n < view.cells[0] * view.cells[1] * view.cells[2]; ++n) EXPECT_FLOAT_EQ(view.mu_maj[n], 7 * 1.0001f);
+    for (int n = 0; n < view.cells[0] * view.cells[1] * view.cells[2]; ++n)
+      EXPECT_FLOAT_EQ(view.mu_maj[n], 7 * 1.0001f);
   }
 }
 
@@ -134,7 +136,12 @@ TEST(Majorants, NonFiniteVoxelsKeepTheBound) {
   Rng voxel_rng(47, 0, 0, 0);
   const Volume volume = make_volume<float>({17, 17, 17}, [&](auto, auto, auto) {
     const float u = voxel_rng.next();
-    return u < 0.05f ? inf : u < 0.1f ? -inf : u < 0.15f ? nan : u < 0.2f ? 3e38f : u < 0.25f ? -3e38f : u * 100;
+    return u < 0.05f   ? inf
+           : u < 0.1f  ? -inf
+           : u < 0.15f ? nan
+           : u < 0.2f  ? 3e38f
+           : u < 0.25f ? -3e38f
+                       : u * 100;
   });
   const GridView grid = make_grid_view(volume);
   Rng rng(48, 0, 0, 0);

@@ -44,7 +44,8 @@ struct Ray {
   Vec3f origin, direction;
 };
 
-/// Walks the part of a ray inside the domain, checks what must hold of every walk and returns the length per cell.
+/// Walks the part of a ray inside the domain, checks what must hold of every walk and returns the length per
+/// cell.
 std::vector<double> walk(const Cells& cells, const Ray& ray, Interval<float> run) {
   std::vector<double> lengths(cells.numbers.size());
   // The rounding of a position: of the origin, of t, and of their sum.
@@ -131,13 +132,15 @@ TEST(Walk, LengthPerCellEqualsTheIntersections) {
       const std::vector<double> walked = walk(cells, ray, run), expected = lengths_of(cells, ray, run);
       const double slope = min_component(max(max(Vec3d(ray.direction), -Vec3d(ray.direction)), Vec3d(1e-3)));
       const double rounding = 1e-6 * (1 + length(Vec3d(ray.origin)) + run.t_far) / slope;
-      for (std::size_t i = 0; i < walked.size(); ++i) ASSERT_NEAR(walked[i], expected[i], rounding) << "cell " << i;
+      for (std::size_t i = 0; i < walked.size(); ++i)
+        ASSERT_NEAR(walked[i], expected[i], rounding) << "cell " << i;
     }
   }
 }
 
 TEST(Walk, DegenerateRaysTileTheirInterval) {
-  // Every combination of origins on corners, edges, faces, centres and outside with directions along axes and diagonals.
+  // Every combination of origins on corners, edges, faces, centres and outside with directions along axes and
+  // diagonals.
   const float directions[] = {-1, 0, 1, -0.0f, 0.5f, 1e-20f, -1e-7f};
   for (const Cells& cells : many_cells()) {
     std::vector<float> coordinates[3];
@@ -185,7 +188,8 @@ TEST(Walk, EmptyIntervalsHaveNoSegments) {
   const Cells cells(9, 5, 5, 4);
   MajorantSegment segment;
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  for (const auto& [a, b] : {std::pair{1.0f, 1.0f}, std::pair{2.0f, 1.0f}, std::pair{nan, 1.0f}, std::pair{0.0f, nan}}) {
+  for (const auto& [a, b] :
+       {std::pair{1.0f, 1.0f}, std::pair{2.0f, 1.0f}, std::pair{nan, 1.0f}, std::pair{0.0f, nan}}) {
     MacrocellWalk w(cells.view, {1, 1, 1}, {1, 0, 0}, a, b);
     EXPECT_FALSE(w.next(segment));
   }
@@ -204,7 +208,8 @@ TEST(Walk, TinyAndMeaninglessDirectionsEnd) {
       EXPECT_EQ(total, 9.0);
     }
   }
-  for (const Ray& ray : {Ray{{nan, 1, 1}, {1, 0, 0}}, Ray{{1, 1, 1}, {nan, nan, nan}}, Ray{{nan, nan, nan}, {nan, 1, 1}}}) {
+  for (const Ray& ray :
+       {Ray{{nan, 1, 1}, {1, 0, 0}}, Ray{{1, 1, 1}, {nan, nan, nan}}, Ray{{nan, nan, nan}, {nan, 1, 1}}}) {
     MacrocellWalk w(cells.view, ray.origin, ray.direction, 0, 5);
     MajorantSegment segment;
     int count = 0;
@@ -222,7 +227,7 @@ TEST(Walk, RoundingAtTheBorderLosesNothing) {
     if (n % 2) ray.direction[n / 2 % 3] *= 1e-7f;
     Interval<float> run = inside(cells, ray);
     run.t_near = 0;
-    run.t_far = std::max(run.t_far, n % 2 ? 0.5f : 0.0f) * (1 + 1e-6f);
+    run.t_far = std::nextafter(std::max(run.t_far, n % 2 ? 0.5f : 0.0f), 1e30f);
     walk(cells, ray, run);
   }
 }

@@ -34,8 +34,10 @@ class CliTest : public testing::Test {
     write("ball.raw", bytes);
     write("ball.nrrd",
           "NRRD0004\ntype: int16\ndimension: 3\nspace: left-posterior-superior\nsizes: 16 16 16\n"
-          "space directions: (1,0,0) (0,1,0) (0,0,1.5)\nspace origin: (-7.5,-7.5,-11.25)\nkinds: domain domain domain\n"
-          "endian: little\nencoding: raw\n\n" + bytes);
+          "space directions: (1,0,0) (0,1,0) (0,0,1.5)\nspace origin: (-7.5,-7.5,-11.25)\nkinds: domain "
+          "domain domain\n"
+          "endian: little\nencoding: raw\n\n" +
+              bytes);
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
@@ -47,16 +49,16 @@ class CliTest : public testing::Test {
 
   RunResult run(const std::vector<std::string>& arguments) const { return run_voxlume(arguments, folder_); }
   /// `render INPUT -o OUT` at a size and sample count that take no time, then `more`.
-  RunResult render(const std::string& input, const std::string& out, const std::vector<std::string>& more = {}) const {
+  RunResult render(const std::string& input, const std::string& out,
+                   const std::vector<std::string>& more = {}) const {
     std::vector<std::string> arguments{"render", input, "-o", out, "--size", "24x20", "--spp", "4"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run(arguments);
   }
 
-  const std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() /
-      ("voxlume-cli-" + std::to_string(::getpid()) + "-" +
-       testing::UnitTest::GetInstance()->current_test_info()->name());
+  const std::filesystem::path folder_ = std::filesystem::temp_directory_path() /
+                                        ("voxlume-cli-" + std::to_string(::getpid()) + "-" +
+                                         testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 
 }  // namespace voxlume::test

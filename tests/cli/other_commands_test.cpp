@@ -8,8 +8,8 @@
 namespace voxlume::test {
 namespace {
 
-using testing::HasSubstr;
 using nlohmann::json;
+using testing::HasSubstr;
 
 TEST_F(CliTest, InfoJson) {
   const RunResult r = run({"info", "ball.nrrd", "--json"});
@@ -53,7 +53,8 @@ TEST_F(CliTest, ConvertThereAndBack) {
   ASSERT_EQ(run({"convert", "ball.nii.gz", "ball.mha"}).code, 0);
   json before = json::parse(run({"info", "ball.nrrd", "--json"}).out);
   json after = json::parse(run({"info", "ball.mha", "--json"}).out);
-  for (const char* key : {"size", "type", "spacing_mm", "origin_mm", "direction", "value_range", "percentiles"}) {
+  for (const char* key :
+       {"size", "type", "spacing_mm", "origin_mm", "direction", "value_range", "percentiles"}) {
     EXPECT_EQ(before[key], after[key]) << key;
   }
 }
@@ -71,7 +72,8 @@ TEST_F(CliTest, CompareOfIdenticalPictures) {
 TEST_F(CliTest, CompareOfDifferentPictures) {
   ASSERT_EQ(render("ball.nrrd", "a.exr").code, 0);
   ASSERT_EQ(render("ball.nrrd", "b.exr", {"--seed", "9"}).code, 0);
-  const RunResult r = run({"compare", "a.exr", "b.exr", "--metric", "psnr,rmse", "--json", "--error-map", "e.png"});
+  const RunResult r =
+      run({"compare", "a.exr", "b.exr", "--metric", "psnr,rmse", "--json", "--error-map", "e.png"});
   ASSERT_EQ(r.code, 0) << r.err;
   const json result = json::parse(r.out);
   EXPECT_EQ(result.size(), 2u);

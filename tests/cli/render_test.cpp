@@ -11,11 +11,12 @@
 namespace voxlume::test {
 namespace {
 
-using testing::HasSubstr;
 using nlohmann::json;
+using testing::HasSubstr;
 
 /// Samples enough that a render cannot end before the test interrupts it.
-const std::vector<std::string> kEndless{"render", "ball.nrrd", "-o", "o.exr", "--size", "96x96", "--spp", "1000000"};
+const std::vector<std::string> kEndless{"render", "ball.nrrd", "-o",    "o.exr",
+                                        "--size", "96x96",     "--spp", "1000000"};
 
 TEST_F(CliTest, RendersAPictureOfTheVolume) {
   const RunResult r = render("ball.nrrd", "o.exr", {"--background", "0,0,0", "--aov", "alpha,depth,samples"});
@@ -63,9 +64,10 @@ TEST_F(CliTest, FlagsOverrideTheScene) {
 
 TEST_F(CliTest, ASavedSceneGivesTheIdenticalPicture) {
   std::filesystem::create_directory(folder_ / "sub");
-  const RunResult first = render("ball.nrrd", "a.exr",
-                           {"--camera", "-30,15", "--clip", "-3:,:,:6", "--shading", "phase", "--background", "#203040",
-                            "--set", "/material/anisotropy=0.3", "--save-scene", "sub/s.json"});
+  const RunResult first =
+      render("ball.nrrd", "a.exr",
+             {"--camera", "-30,15", "--clip", "-3:,:,:6", "--shading", "phase", "--background", "#203040",
+              "--set", "/material/anisotropy=0.3", "--save-scene", "sub/s.json"});
   ASSERT_EQ(first.code, 0) << first.err;
   EXPECT_THAT(read("sub/s.json"), HasSubstr("\"reference_length_mm\""));
   const RunResult second = run({"render", "sub/s.json", "-o", "b.exr"});
@@ -77,7 +79,8 @@ TEST_F(CliTest, ASavedSceneGivesTheIdenticalPicture) {
 
 TEST_F(CliTest, RawVolumesRenderAsTheirNamesakes) {
   ASSERT_EQ(render("ball.raw", "a.exr", {"--raw", "16x16x16,i16,1,1,1.5", "--preset", "generic"}).code, 0);
-  ASSERT_EQ(render("ball.nrrd", "b.exr", {"--preset", "generic", "--set", "/volume/spacing_mm=[1,1,1.5]"}).code, 2);
+  ASSERT_EQ(
+      render("ball.nrrd", "b.exr", {"--preset", "generic", "--set", "/volume/spacing_mm=[1,1,1.5]"}).code, 2);
   ASSERT_EQ(render("ball.nrrd", "b.exr", {"--preset", "generic", "--spacing", "1,1,1.5"}).code, 0);
   EXPECT_GT(read_image(folder_ / "a.exr").pixel(12, 10)[1], 0.0f);
 }
@@ -86,8 +89,8 @@ TEST_F(CliTest, StatisticsHaveTheirKeys) {
   ASSERT_EQ(render("ball.nrrd", "o.png", {"--stats", "s.json", "--threads", "2"}).code, 0);
   const json stats = json::parse(read("s.json"));
   for (const char* key : {"wall_s", "load_s", "total_s", "threads", "simd", "spp", "paths", "tracking_steps",
-                          "steps_per_s", "paths_per_s", "majorant_build_ms", "peak_rss_bytes", "nonfinite_samples",
-                          "mean_luminance", "seed", "version"}) {
+                          "steps_per_s", "paths_per_s", "majorant_build_ms", "peak_rss_bytes",
+                          "nonfinite_samples", "mean_luminance", "seed", "version"}) {
     EXPECT_TRUE(stats.contains(key)) << key;
   }
   EXPECT_EQ(stats["threads"], 2);
@@ -108,7 +111,8 @@ TEST_F(CliTest, TransparentPngHasAlpha) {
 }
 
 TEST_F(CliTest, TheTimeLimitHolds) {
-  const RunResult r = run({"render", "ball.nrrd", "-o", "o.png", "--size", "32x32", "--seconds", "0.3", "--stats", "s.json"});
+  const RunResult r =
+      run({"render", "ball.nrrd", "-o", "o.png", "--size", "32x32", "--seconds", "0.3", "--stats", "s.json"});
   ASSERT_EQ(r.code, 0) << r.err;
   const double wall_s = json::parse(read("s.json"))["wall_s"];
   EXPECT_GE(wall_s, 0.25);
@@ -116,7 +120,10 @@ TEST_F(CliTest, TheTimeLimitHolds) {
 }
 
 TEST_F(CliTest, TheNoiseLimitHolds) {
-  ASSERT_EQ(run({"render", "ball.nrrd", "-o", "o.png", "--size", "16x16", "--noise", "0.2", "--stats", "s.json"}).code, 0);
+  ASSERT_EQ(
+      run({"render", "ball.nrrd", "-o", "o.png", "--size", "16x16", "--noise", "0.2", "--stats", "s.json"})
+          .code,
+      0);
   EXPECT_LE(json::parse(read("s.json"))["noise"].get<double>(), 0.2);
 }
 

@@ -31,7 +31,8 @@ Process::Process(const std::vector<std::string>& arguments, const fs::path& fold
   const int in = ::open("/dev/null", O_RDONLY);
   const int out = ::open(out_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   const int err = ::open(err_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  if (::chdir(folder.c_str()) != 0 || ::dup2(in, 0) < 0 || ::dup2(out, 1) < 0 || ::dup2(err, 2) < 0) ::_exit(99);
+  if (::chdir(folder.c_str()) != 0 || ::dup2(in, 0) < 0 || ::dup2(out, 1) < 0 || ::dup2(err, 2) < 0)
+    ::_exit(99);
   ::execv(argv[0], argv.data());
   ::_exit(98);
 }
@@ -61,6 +62,8 @@ std::string file_text(const fs::path& path) {
   return text.str();
 }
 
-int line_count(const std::string& text) { return static_cast<int>(std::count(text.begin(), text.end(), '\n')); }
+int line_count(const std::string& text) {
+  return static_cast<int>(std::count(text.begin(), text.end(), '\n'));
+}
 
 }  // namespace voxlume::test

@@ -7,7 +7,7 @@ namespace voxlume::test {
 
 /// What a run of the program left behind.
 struct RunResult {
-  int code = -1;        ///< exit code; 128 + the signal that ended it
+  int code = -1;  ///< exit code; 128 + the signal that ended it
   std::string out, err;
 };
 

@@ -12,8 +12,9 @@ using testing::HasSubstr;
 using Arguments = std::vector<std::string>;
 
 TEST_F(CliTest, HelpAndVersion) {
-  for (const Arguments& arguments : {Arguments{"--help"}, Arguments{"render", "--help"}, Arguments{"info", "-h"},
-                                     Arguments{"convert", "--help"}, Arguments{"compare", "--help"}}) {
+  for (const Arguments& arguments :
+       {Arguments{"--help"}, Arguments{"render", "--help"}, Arguments{"info", "-h"},
+        Arguments{"convert", "--help"}, Arguments{"compare", "--help"}}) {
     const RunResult r = run(arguments);
     EXPECT_EQ(r.code, 0);
     EXPECT_THAT(r.out, HasSubstr("Example"));
@@ -38,7 +39,8 @@ class CliRefuses : public CliTest {
  protected:
   void expect_refused(const std::vector<Refusal>& refusals) const {
     const auto files = [&] {
-      return std::distance(std::filesystem::directory_iterator(folder_), std::filesystem::directory_iterator());
+      return std::distance(std::filesystem::directory_iterator(folder_),
+                           std::filesystem::directory_iterator());
     };
     const auto before = files();
     // Most of a run's time is the loading of shared libraries: two at a time.
@@ -78,8 +80,10 @@ TEST_F(CliRefuses, Usage) {
       {{"render"}, "INPUT is required"},
       {{"render", "ball.nrrd"}, "-o: missing; expected a picture to write"},
       {{"render", "ball.nrrd", "-o"}, "--output: its value is missing"},
-      {{"render", "ball.nrrd", "-o", "o.png", "--sed", "1"}, "unknown argument \"--sed\"; did you mean --seed?"},
-      {{"render", "ball.nrrd", "-o", "o.png", "--zzzzz=1"}, "unknown argument \"--zzzzz\"; see voxlume render --help"},
+      {{"render", "ball.nrrd", "-o", "o.png", "--sed", "1"},
+       "unknown argument \"--sed\"; did you mean --seed?"},
+      {{"render", "ball.nrrd", "-o", "o.png", "--zzzzz=1"},
+       "unknown argument \"--zzzzz\"; see voxlume render --help"},
       {{"render", "ball.nrrd", "extra", "-o", "o.png"}, "unknown argument \"extra\""},
       {{"render", "ball.nrrd", "-o", "o.png", "--spp", "1", "--spp", "2"}, "--spp: given more than once"},
       {{"render", "ball.nrrd", "-o", "o.png", "--spp"}, "--spp: its value is missing"},
@@ -108,7 +112,8 @@ TEST_F(CliRefuses, Values) {
       flags({"--camera", "30"}, "--camera: found \"30\", expected azimuth,elevation[,zoom]"),
       flags({"--camera", "30,100"}, "--camera: found 100, expected a number in [-90, 90]"),
       flags({"--camera", "30,10,0"}, "--camera: found 0, expected a number in (0, "),
-      flags({"--shading", "phong"}, "--shading: found \"phong\", expected one of coexistence, er, phase, brdf"),
+      flags({"--shading", "phong"},
+            "--shading: found \"phong\", expected one of coexistence, er, phase, brdf"),
       flags({"--projection", "fisheye"}, "--projection: found \"fisheye\""),
       flags({"--fov", "180"}, "--fov: found 180"),
       flags({"--background", "blue"}, "--background: found \"blue\", expected env, transparent"),
@@ -151,7 +156,8 @@ TEST_F(CliRefuses, WhatIsNotBuiltYetByName) {
       flags({"--visibility", "1,1,1,1"}, "--visibility is not built yet"),
       flags({"--visibility-lights", "first"}, "--visibility-lights first is not built yet; available: off"),
       flags({"--visibility-lights", "all"}, "--visibility-lights all is not built yet; available: off"),
-      {{"compare", "a.png", "b.png", "--metric", "flip"}, "--metric flip is not built yet; available: rmse, psnr"},
+      {{"compare", "a.png", "b.png", "--metric", "flip"},
+       "--metric flip is not built yet; available: rmse, psnr"},
       {{"view"}, "view is not built yet; available: render"},
       {{"view", "ball.nrrd", "--port", "8080"}, "view is not built yet"},
   });
@@ -170,7 +176,8 @@ TEST_F(CliRefuses, Outputs) {
       flags({"--stats", "./o.png"}, "two outputs have the same name"),
       {{"render", "ball.nrrd", "--save-scene", "s.json", "--resume"}, "--resume: needs -o"},
       {{"convert", "ball.nrrd", "ball.xyz"}, "ball.xyz"},
-      {{"compare", "ball.nrrd", "ball.nrrd", "--error-map", "e.exr"}, "--error-map: expected a name ending in .png"},
+      {{"compare", "ball.nrrd", "ball.nrrd", "--error-map", "e.exr"},
+       "--error-map: expected a name ending in .png"},
   });
 }
 

@@ -112,7 +112,7 @@ TEST(Film, NonfiniteBecomesZeroAndIsCountedOnce) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   Film film(1, 1, kAllLayers);
-  film.add(0, 0, {.radiance = {1, 1, 1}, .alpha = 1, .albedo = Vec3f(0.5f), .normal = {0, 0, 1}, .depth_mm = 5});
+  film.add(0, 0, {.radiance = {1, 1, 1}, .alpha = 1, .normal = {0, 0, 1}, .depth_mm = 5});
   film.add(0, 0, {.radiance = {1, kNan, 1}});
   film.add(0, 0, {.radiance = {kInfinity, 0, 0}, .alpha = 1, .depth_mm = kNan});
   film.add(0, 0, {.radiance = {1, 1, 1}, .alpha = kNan});

@@ -24,8 +24,8 @@ double largest_magnitude(const Volume& volume) {
 
 template <class T>
 class Sample : public testing::Test {};
-using VoxelTypes = testing::Types<std::uint8_t, std::int8_t, std::uint16_t, std::int16_t, std::uint32_t, std::int32_t,
-                                  float, double>;
+using VoxelTypes = testing::Types<std::uint8_t, std::int8_t, std::uint16_t, std::int16_t, std::uint32_t,
+                                  std::int32_t, float, double>;
 TYPED_TEST_SUITE(Sample, VoxelTypes);
 
 TYPED_TEST(Sample, TrilinearEqualsTheWeightedSum) {
@@ -121,9 +121,8 @@ TEST(Sample, LinearFieldsAreExact) {
 }
 
 TEST(Sample, NaNVoxelsSpoilWhatTheyTouch) {
-  Volume volume = make_volume<float>({5, 5, 5}, [](auto i, auto j, auto k) {
-    return i == 2 && j == 2 && k == 2 ? kNaN : 1.0f;
-  });
+  Volume volume = make_volume<float>(
+      {5, 5, 5}, [](auto i, auto j, auto k) { return i == 2 && j == 2 && k == 2 ? kNaN : 1.0f; });
   const GridView grid = make_grid_view(volume);
   Rng rng(8, 0, 0, 0);
   for (int n = 0; n < 20000; ++n) {
@@ -147,7 +146,8 @@ TEST_P(Gradient, LinearFieldIsExactInLps) {
   const Affined world = world_from_index(volume);
   const Vec3d origin(placement.origin_mm[0], placement.origin_mm[1], placement.origin_mm[2]);
   volume = make_volume<float>(
-      volume.size, [&](auto i, auto j, auto k) { return dot(slope, world.point(Vec3d(i, j, k)) - origin); }, placement);
+      volume.size, [&](auto i, auto j, auto k) { return dot(slope, world.point(Vec3d(i, j, k)) - origin); },
+      placement);
   const GridView grid = make_grid_view(volume);
   Rng rng(9, 0, 0, 0);
   for (int n = 0; n < 5000; ++n) {

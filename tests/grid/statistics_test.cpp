@@ -30,8 +30,8 @@ double percentile_of(const std::vector<double>& sorted, double fraction) {
 
 template <class T>
 class Statistics : public testing::Test {};
-using VoxelTypes = testing::Types<std::uint8_t, std::int8_t, std::uint16_t, std::int16_t, std::uint32_t, std::int32_t,
-                                  float, double>;
+using VoxelTypes = testing::Types<std::uint8_t, std::int8_t, std::uint16_t, std::int16_t, std::uint32_t,
+                                  std::int32_t, float, double>;
 TYPED_TEST_SUITE(Statistics, VoxelTypes);
 
 TYPED_TEST(Statistics, AgreeWithSorting) {
@@ -107,8 +107,8 @@ TEST(Statistics, NonFiniteVoxelsAreCountedAndLeftOut) {
 }
 
 TEST(Statistics, NothingFinite) {
-  const Volume volume =
-      make_volume<double>({2, 3, 4}, [](auto, auto, auto) { return std::numeric_limits<double>::quiet_NaN(); });
+  const Volume volume = make_volume<double>(
+      {2, 3, 4}, [](auto, auto, auto) { return std::numeric_limits<double>::quiet_NaN(); });
   const VolumeStatistics statistics = compute_statistics(make_grid_view(volume));
   EXPECT_EQ(statistics.nonfinite_voxels, 24u);
   EXPECT_EQ(statistics.lower, 0.0f);
@@ -117,8 +117,8 @@ TEST(Statistics, NothingFinite) {
 }
 
 TEST(Statistics, ExtremeRangesStayInBounds) {
-  for (const auto& [a, b] : {std::pair{0.0, 5e-324}, std::pair{-1.7e308, 1.7e308}, std::pair{1.0, 1.0 + 2.3e-16},
-                             std::pair{-3e38, 3e38}, std::pair{0.0, 1e-310}}) {
+  for (const auto& [a, b] : {std::pair{0.0, 5e-324}, std::pair{-1.7e308, 1.7e308},
+                             std::pair{1.0, 1.0 + 2.3e-16}, std::pair{-3e38, 3e38}, std::pair{0.0, 1e-310}}) {
     const Volume volume = make_volume<double>({4, 4, 4}, [&](auto i, auto, auto) { return i % 2 ? a : b; });
     const VolumeStatistics statistics = compute_statistics(make_grid_view(volume));
     std::uint64_t total = 0;

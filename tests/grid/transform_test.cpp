@@ -75,7 +75,8 @@ TEST(Transform, WorldBoundsAreTight) {
     const Box3d box = world_bounds(volume);
     Vec3d lower(1e9), upper(-1e9);
     for (int corner = 0; corner < 8; ++corner) {
-      const Vec3d p = world_of(volume, {corner & 1 ? 2.5 : -0.5, corner & 2 ? 4.5 : -0.5, corner & 4 ? 6.5 : -0.5});
+      const Vec3d p =
+          world_of(volume, {corner & 1 ? 2.5 : -0.5, corner & 2 ? 4.5 : -0.5, corner & 4 ? 6.5 : -0.5});
       lower = min(lower, p);
       upper = max(upper, p);
     }

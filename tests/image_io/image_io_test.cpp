@@ -181,9 +181,10 @@ TEST_F(ImageIo, MissingAndForeignFiles) {
 }
 
 TEST_F(ImageIo, AbsurdSizesTakeNoMemory) {
-  for (const char* size : {"-Y 65536 +X 65536", "-Y 32768 +X 65536", "-Y 2000000000 +X 2000000000", "-Y -5 +X 8",
-                           "-Y 0 +X 8", "-Y 99999999999999 +X 1"}) {
-    test::write_bytes(folder_ / "a.hdr", std::string("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n") + size + "\nabcd");
+  for (const char* size : {"-Y 65536 +X 65536", "-Y 32768 +X 65536", "-Y 2000000000 +X 2000000000",
+                           "-Y -5 +X 8", "-Y 0 +X 8", "-Y 99999999999999 +X 1"}) {
+    const std::string header = std::string("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n") + size + "\n";
+    test::write_bytes(folder_ / "a.hdr", header + "abcd");
     const Error error = error_of([&] { read_image(folder_ / "a.hdr"); });
     EXPECT_EQ(error.code(), ErrorCode::kBadFormat) << error.what();
   }
@@ -213,7 +214,8 @@ TEST_F(ImageIo, WriteErrorsAreClean) {
   EXPECT_EQ(error_of([&] { write_png(pixel, folder_ / "none/a.png"); }).code(), ErrorCode::kFileNotFound);
   EXPECT_EQ(error_of([&] { write_exr(Image(1, 1), folder_.path()); }).code(), ErrorCode::kBadParameter);
   // The disk is full.
-  EXPECT_EQ(error_of([&] { write_exr(test::sample_image(200, 200), "/dev/full"); }).code(), ErrorCode::kInternal);
+  const Image many_values = test::sample_image(200, 200);
+  EXPECT_EQ(error_of([&] { write_exr(many_values, "/dev/full"); }).code(), ErrorCode::kInternal);
   const Image8 large{400, 400, 3, std::vector<std::uint8_t>(480000, 7), {}};
   EXPECT_EQ(error_of([&] { write_png(large, "/dev/full"); }).code(), ErrorCode::kInternal);
 }

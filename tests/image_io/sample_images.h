@@ -27,8 +27,8 @@ inline Image sample_image(int width, int height, unsigned seed = 1) {
 
 /// A Radiance picture without run-length coding; `rgbe` holds 4 bytes a pixel.
 inline std::string hdr_bytes(int width, int height, const std::string& rgbe) {
-  return "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " + std::to_string(height) + " +X " + std::to_string(width) +
-         "\n" + rgbe;
+  return "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " + std::to_string(height) + " +X " +
+         std::to_string(width) + "\n" + rgbe;
 }
 
 }  // namespace voxlume::test

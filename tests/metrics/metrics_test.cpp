@@ -80,7 +80,8 @@ TEST(Ssim, OneWindowByTheDefinition) {
   const Image a = noise(11, 11, 2), b = noise(11, 11, 3);
   const auto luma = [](const Image& image, int i) {
     const float* p = &image.rgba[4 * static_cast<std::size_t>(i)];
-    return 0.2126 * srgb_from_linear(p[0]) + 0.7152 * srgb_from_linear(p[1]) + 0.0722 * srgb_from_linear(p[2]);
+    return 0.2126 * srgb_from_linear(p[0]) + 0.7152 * srgb_from_linear(p[1]) +
+           0.0722 * srgb_from_linear(p[2]);
   };
   double total = 0, ma = 0, mb = 0, vaa = 0, vbb = 0, vab = 0;
   std::vector<double> w(121);

@@ -52,7 +52,8 @@ class Checkpoint : public testing::Test {
     std::string changed = bytes_;
     std::memcpy(changed.data() + offset, &value, sizeof(value));
     const std::size_t body = changed.size() - 4;
-    const auto crc = static_cast<std::uint32_t>(crc32(0, reinterpret_cast<const Bytef*>(changed.data()), body));
+    const auto* start = reinterpret_cast<const Bytef*>(changed.data());
+    const auto crc = static_cast<std::uint32_t>(crc32(0, start, static_cast<uInt>(body)));
     std::memcpy(changed.data() + body, &crc, sizeof(crc));
     return changed;
   }

@@ -64,7 +64,8 @@ TEST(RenderLoop, SameFilmForAnyThreadsTilesAndOrder) {
       std::shuffle(options.tile_order.begin(), options.tile_order.end(), generator);
       const RenderOutcome outcome = run_render_loop(state, synthetic_trace, options);
       EXPECT_EQ(outcome.status, RenderStatus::kDone);
-      EXPECT_EQ(film_bytes(state.film), film_bytes(expected.film)) << threads << " threads, tiles of " << tile_size;
+      EXPECT_EQ(film_bytes(state.film), film_bytes(expected.film))
+          << threads << " threads, tiles of " << tile_size;
       EXPECT_EQ(state.counters, expected.counters);
       EXPECT_GT(outcome.wall_s, 0);
       EXPECT_EQ(outcome.wall_s, state.elapsed_s);
@@ -212,7 +213,9 @@ TEST(RenderLoop, SecondsStopInTimeWithEvenTiles) {
   EXPECT_GT(outcome.wall_s, 0.45);
   EXPECT_LT(outcome.wall_s, 1.0);
   std::set<std::uint32_t> counts;
-  for (const TileRect& tile : make_tiles(64, 64, 16)) counts.insert(state.film.sample_count(tile.x0, tile.y0));
+  for (const TileRect& tile : make_tiles(64, 64, 16)) {
+    counts.insert(state.film.sample_count(tile.x0, tile.y0));
+  }
   EXPECT_GE(*counts.begin(), 2u);
   EXPECT_LE(*counts.rbegin() - *counts.begin(), 8u);
 }
@@ -222,7 +225,9 @@ TEST(RenderLoop, EveryPixelHasASampleHoweverShortTheTime) {
   RenderLoopOptions options;
   options.stop.seconds = 1e-9;
   run_render_loop(state, slow_trace, options);
-  for (const TileRect& tile : make_tiles(64, 64, 16)) EXPECT_EQ(state.film.sample_count(tile.x0, tile.y0), 1u);
+  for (const TileRect& tile : make_tiles(64, 64, 16)) {
+    EXPECT_EQ(state.film.sample_count(tile.x0, tile.y0), 1u);
+  }
 }
 
 TEST(RenderLoop, SecondsCountOverResumedParts) {
@@ -236,7 +241,7 @@ TEST(RenderLoop, SecondsCountOverResumedParts) {
 }
 
 TEST(RenderLoop, CancelIsSeenSoonInSlowScenes) {
-  RenderState state = new_state(320, 320, 16);  // 400 tiles at 2 ms a sample: 32 samples take 26 s on one thread
+  RenderState state = new_state(320, 320, 16);  // 400 tiles at 2 ms a sample: a long pass takes 13 s
   std::atomic<bool> cancel{false};
   RenderLoopOptions options = spp_options(1000000, 2);
   options.cancel = &cancel;
@@ -311,7 +316,9 @@ TEST(RenderLoop, ProgressComesFromOneThreadAndEndsAtTheEnd) {
 
 TEST(RenderLoop, ExceptionsReachTheCaller) {
   RenderState state = new_state(32, 32, 8);
-  const auto bad_trace = [](const TileRect&, int, int, Film&, TraceCounters&) { throw std::runtime_error("trace"); };
+  const auto bad_trace = [](const TileRect&, int, int, Film&, TraceCounters&) {
+    throw std::runtime_error("trace");
+  };
   EXPECT_THROW(run_render_loop(state, bad_trace, spp_options(4)), std::runtime_error);
   RenderLoopOptions options = spp_options(20, 1);
   options.progress = [](const RenderProgress&) { throw std::runtime_error("progress"); };

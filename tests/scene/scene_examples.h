@@ -32,8 +32,8 @@ inline SceneDescription full_scene() {
   s.lights = {sun, lamp, panel};
   s.environment = EnvironmentDescription{"sky.exr", Color{{0.5f, 0.5f, 1}}, 2, 45, Attachment::kCamera, true};
   s.background = BackgroundDescription{BackgroundKind::kEnvironment, Color{{0.25f, 0, 0}}};
-  s.camera = {Projection::kOrthographic, 30, -10, 5, 1.5, 28, Double3{1, 2, 3}, Double3{4, 5, 6}, Double3{0, 1, 0},
-              200.0, 0.5, 300.0, 3};
+  s.camera = {Projection::kOrthographic, 30,    -10, 5,     1.5, 28, Double3{1, 2, 3}, Double3{4, 5, 6},
+              Double3{0, 1, 0},          200.0, 0.5, 300.0, 3};
   s.clip = ClipDescription{{-10, 1e30}, {-1e30, 20}, {0, 5}, true};
   s.image = {640, 480, 16, 2.5, 0.01, PixelFilter::kBox, 0.5, 1.25, ToneCurve::kSrgb, {"depth", "albedo"}};
   s.render.seed = 18446744073709551615ull;

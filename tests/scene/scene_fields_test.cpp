@@ -41,7 +41,8 @@ TEST(SceneSchema, EveryReferenceLeadsToADefinition) {
   const std::function<void(const nlohmann::json&)> walk = [&](const nlohmann::json& value) {
     if (value.is_object() && value.contains("$ref")) {
       ++references;
-      EXPECT_TRUE(schema.contains(nlohmann::json::json_pointer(value["$ref"].get<std::string>().substr(1)))) << value;
+      EXPECT_TRUE(schema.contains(nlohmann::json::json_pointer(value["$ref"].get<std::string>().substr(1))))
+          << value;
     }
     if (value.is_structured()) {
       for (const auto& element : value) walk(element);
@@ -76,7 +77,8 @@ TEST(FullScene, HasNoDefaults) {
   expect_no_defaults(*s.labels);
   expect_no_defaults(s.material);
   expect_no_defaults(s.lights->back(), {"color", "intensity", "direction"});
-  expect_no_defaults(s.lights->front(), {"kind", "attached_to", "position_mm", "target_mm", "up", "size_mm", "two_sided"});
+  expect_no_defaults(s.lights->front(),
+                     {"kind", "attached_to", "position_mm", "target_mm", "up", "size_mm", "two_sided"});
   expect_no_defaults(*s.environment);
   expect_no_defaults(*s.background);
   expect_no_defaults(s.camera);

@@ -63,7 +63,8 @@ TEST(SceneFile, NumbersRoundTripExactly) {
   for (int i = 0; i < 2000; ++i) {
     SceneDescription s;
     s.render.seed = random();
-    s.camera.azimuth_deg = std::ldexp(static_cast<double>(random() >> 11), static_cast<int>(random() % 40) - 90);
+    s.camera.azimuth_deg =
+        std::ldexp(static_cast<double>(random() >> 11), static_cast<int>(random() % 40) - 90);
     const auto channel = [&] { return std::ldexp(static_cast<float>(random() >> 40), -24); };
     s.background = BackgroundDescription{BackgroundKind::kColor, {{channel(), channel(), channel()}}};
     ASSERT_EQ(parse_scene(write_scene(s), "s"), s) << write_scene(s);
@@ -104,19 +105,19 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Refusal{"", "line 1, column 1: unexpected end of input"},
         Refusal{"{\n  \"version\": 1,\n  \"image\": {,}\n}", "line 3, column 13"},
-        Refusal{"{\"version\": 1", "line 1, column 14"},
-        Refusal{"{\"version\": 1} x", "line 1, column 16"},
+        Refusal{"{\"version\": 1", "line 1, column 14"}, Refusal{"{\"version\": 1} x", "line 1, column 16"},
         Refusal{"{\"version\": 1, \"render\": {\"seed\": 1e999}}", "number overflow"},
         Refusal{"[]", "/: found a list of 0, expected an object"},
-        Refusal{"null", "/: found null, expected an object"},
-        Refusal{"{}", "/: missing key \"version\""},
+        Refusal{"null", "/: found null, expected an object"}, Refusal{"{}", "/: missing key \"version\""},
         Refusal{R"({"version": 2, "unheard_of": 1})", "/version: found version 2, expected at most 1"},
         Refusal{R"({"version": 0})", "/version: found 0, expected a whole number in [1, 1]"},
         Refusal{R"({"version": "1"})", "/version: found \"1\", expected a whole number"},
         Refusal{R"({"version": 1, "version": 1})", "found the key \"version\" twice"},
-        Refusal{R"({"version": 1, "volume": [[[[[[[[[[[[[[[[[[[[]]]]]]]]]]]]]]]]]]]]})", "nested more than 16 deep"},
+        Refusal{R"({"version": 1, "volume": [[[[[[[[[[[[[[[[[[[[]]]]]]]]]]]]]]]]]]]]})",
+                "nested more than 16 deep"},
         Refusal{R"({"version": 1, "camra": {}})", "/: unknown key \"camra\"; did you mean \"camera\"?"},
-        Refusal{R"({"version": 1, "zzzzzzzzzz": {}})", "/: unknown key \"zzzzzzzzzz\"; expected one of version, volume"},
+        Refusal{R"({"version": 1, "zzzzzzzzzz": {}})",
+                "/: unknown key \"zzzzzzzzzz\"; expected one of version, volume"},
         Refusal{R"({"version": 1, "ca\nm": {}})", R"(unknown key "ca\x0am")"},
         Refusal{R"({"version": 1, "camera": 3})", "/camera: found 3, expected an object"},
         Refusal{R"({"version": 1, "clip": null})", "/clip: found null, expected an object"},
@@ -125,58 +126,86 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Values, SceneFileRefuses,
     testing::Values(
-        Refusal{R"({"version": 1, "image": {"width": 0}})", "/image/width: found 0, expected a whole number in [1, 65536]"},
-        Refusal{R"({"version": 1, "image": {"width": 1.5}})", "/image/width: found 1.5, expected a whole number"},
+        Refusal{R"({"version": 1, "image": {"width": 0}})",
+                "/image/width: found 0, expected a whole number in [1, 65536]"},
+        Refusal{R"({"version": 1, "image": {"width": 1.5}})",
+                "/image/width: found 1.5, expected a whole number"},
         Refusal{R"({"version": 1, "image": {"width": 99999999999}})", "/image/width: found 99999999999"},
         Refusal{R"({"version": 1, "image": {"width": "640"}})", "/image/width: found \"640\""},
-        Refusal{R"({"version": 1, "image": {"seconds": 0}})", "/image/seconds: found 0, expected a number in (0, "},
-        Refusal{R"({"version": 1, "image": {"aovs": ["depth", "depht"]}})", "/image/aovs/1: found \"depht\", expected one of alpha"},
-        Refusal{R"({"version": 1, "image": {"aovs": ["depth", "depth"]}})", "/image/aovs/1: found \"depth\" twice"},
-        Refusal{R"({"version": 1, "image": {"filter": "Box"}})", "/image/filter: found \"Box\", expected one of gaussian, box"},
+        Refusal{R"({"version": 1, "image": {"seconds": 0}})",
+                "/image/seconds: found 0, expected a number in (0, "},
+        Refusal{R"({"version": 1, "image": {"aovs": ["depth", "depht"]}})",
+                "/image/aovs/1: found \"depht\", expected one of alpha"},
+        Refusal{R"({"version": 1, "image": {"aovs": ["depth", "depth"]}})",
+                "/image/aovs/1: found \"depth\" twice"},
+        Refusal{R"({"version": 1, "image": {"filter": "Box"}})",
+                "/image/filter: found \"Box\", expected one of gaussian, box"},
         Refusal{R"({"version": 1, "render": {"seed": -1}})", "/render/seed: found -1"},
         Refusal{R"({"version": 1, "render": {"frame": 4294967296}})", "/render/frame: found 4294967296"},
-        Refusal{R"({"version": 1, "render": {"denoise": "wrls"}})", "/render/denoise: wrls is not built yet; available: none"},
-        Refusal{R"({"version": 1, "render": {"denoise": "blur"}})", "/render/denoise: found \"blur\", expected one of none"},
-        Refusal{R"({"version": 1, "render": {"simd": 4}})", "/render/simd: found 4, expected one of auto, scalar"},
+        Refusal{R"({"version": 1, "render": {"denoise": "wrls"}})",
+                "/render/denoise: wrls is not built yet; available: none"},
+        Refusal{R"({"version": 1, "render": {"denoise": "blur"}})",
+                "/render/denoise: found \"blur\", expected one of none"},
+        Refusal{R"({"version": 1, "render": {"simd": 4}})",
+                "/render/simd: found 4, expected one of auto, scalar"},
         Refusal{R"({"version": 1, "material": {"opacity_modulated": 1}})", "expected true or false"},
         Refusal{R"({"version": 1, "material": {"anisotropy": 1}})", "found 1, expected a number in (-1, 1)"},
-        Refusal{R"({"version": 1, "material": {"roughness": true}})", "found true, expected a number in [0, 1]"},
-        Refusal{R"({"version": 1, "camera": {"target_mm": [1, 2]}})", "/camera/target_mm: found a list of 2, expected a list of 3 numbers"},
-        Refusal{R"({"version": 1, "camera": {"target_mm": [1, 2, "3"]}})", "/camera/target_mm/2: found \"3\", expected a number"},
+        Refusal{R"({"version": 1, "material": {"roughness": true}})",
+                "found true, expected a number in [0, 1]"},
+        Refusal{R"({"version": 1, "camera": {"target_mm": [1, 2]}})",
+                "/camera/target_mm: found a list of 2, expected a list of 3 numbers"},
+        Refusal{R"({"version": 1, "camera": {"target_mm": [1, 2, "3"]}})",
+                "/camera/target_mm/2: found \"3\", expected a number"},
         Refusal{R"({"version": 1, "camera": {"azimuth_deg": 1e300}})", "/camera/azimuth_deg: found 1e+300"},
         Refusal{R"({"version": 1, "camera": {"focus_mm": 1e13}})", "/camera/focus_mm: found 10000000000000"},
-        Refusal{R"({"version": 1, "volume": {"spacing_mm": [1, 0, 1]}})", "/volume/spacing_mm/1: found 0, expected a number in (0, "},
-        Refusal{R"({"version": 1, "volume": {"path": "a\u0000b"}})", "/volume/path: found \"a\\x00b\", expected text without control"},
-        Refusal{R"({"version": 1, "environment": {"color": "red"}})", "/environment/color: found \"red\", expected a color"},
+        Refusal{R"({"version": 1, "volume": {"spacing_mm": [1, 0, 1]}})",
+                "/volume/spacing_mm/1: found 0, expected a number in (0, "},
+        Refusal{R"({"version": 1, "volume": {"path": "a\u0000b"}})",
+                "/volume/path: found \"a\\x00b\", expected text without control"},
+        Refusal{R"({"version": 1, "environment": {"color": "red"}})",
+                "/environment/color: found \"red\", expected a color"},
         Refusal{R"({"version": 1, "environment": {"color": "#12345g"}})", "expected a color"},
         Refusal{R"({"version": 1, "environment": {"color": [0, 2, 0]}})", "found 2, expected a color"},
-        Refusal{R"({"version": 1, "environment": {"color": {"linear": [0, -2, 0]}}})", "found a linear channel of -2, expected a number >= 0"},
-        Refusal{R"({"version": 1, "environment": {"color": {"lin": [0, 0, 0]}}})", "found an object, expected a color"}));
+        Refusal{R"({"version": 1, "environment": {"color": {"linear": [0, -2, 0]}}})",
+                "found a linear channel of -2, expected a number >= 0"},
+        Refusal{R"({"version": 1, "environment": {"color": {"lin": [0, 0, 0]}}})",
+                "found an object, expected a color"}));
 
 INSTANTIATE_TEST_SUITE_P(
     RulesBetweenFields, SceneFileRefuses,
     testing::Values(
-        Refusal{R"({"version": 1, "transfer": {"points": [{"opacity": 1}]}})", "/transfer/points/0: missing key \"value\""},
+        Refusal{R"({"version": 1, "transfer": {"points": [{"opacity": 1}]}})",
+                "/transfer/points/0: missing key \"value\""},
         Refusal{R"({"version": 1, "transfer": {"points": [{"value": 1, "opacty": 1}]}})",
                 "scene.json: /transfer/points/0: unknown key \"opacty\"; did you mean \"opacity\"?"},
         Refusal{R"({"version": 1, "transfer": {"points": [{"value": 5}, {"value": 1}]}})",
                 "/transfer/points/1: found value 1 after 5, expected points sorted by value"},
         Refusal{R"({"version": 1, "transfer": {"points": [{"value": 1, "opacity": 0.5, "mu_t_per_mm": 1}]}})",
                 "/transfer/points/0: found both opacity and mu_t_per_mm"},
-        Refusal{R"({"version": 1, "transfer": {"points": [{"value": 1, "opacity": 0.5}, {"value": 2, "mu_t_per_mm": 1}]}})",
-                "/transfer/points/1: found both"},
-        Refusal{R"({"version": 1, "transfer": {"points": [{"value": 1, "opacity": 1.5}]}})", "/transfer/points/0/opacity: found 1.5"},
-        Refusal{R"({"version": 1, "transfer": {"points": [{"value": 1, "color": {"linear": [2, 0, 0]}}]}})", "expected a number in [0, 1]"},
+        Refusal{
+            R"({"version": 1, "transfer": {"points": [{"value": 1, "opacity": 0.5}, {"value": 2, "mu_t_per_mm": 1}]}})",
+            "/transfer/points/1: found both"},
+        Refusal{R"({"version": 1, "transfer": {"points": [{"value": 1, "opacity": 1.5}]}})",
+                "/transfer/points/0/opacity: found 1.5"},
+        Refusal{R"({"version": 1, "transfer": {"points": [{"value": 1, "color": {"linear": [2, 0, 0]}}]}})",
+                "expected a number in [0, 1]"},
         Refusal{R"({"version": 1, "lights": [{}]})", "/lights/0: missing key \"kind\""},
-        Refusal{R"({"version": 1, "lights": [{"kind": "spot"}]})", "/lights/0/kind: found \"spot\", expected one of directional, point, rect"},
-        Refusal{R"({"version": 1, "lights": [{"kind": "directional"}]})", "/lights/0: missing key \"direction\""},
+        Refusal{R"({"version": 1, "lights": [{"kind": "spot"}]})",
+                "/lights/0/kind: found \"spot\", expected one of directional, point, rect"},
+        Refusal{R"({"version": 1, "lights": [{"kind": "directional"}]})",
+                "/lights/0: missing key \"direction\""},
         Refusal{R"({"version": 1, "lights": [{"kind": "point"}]})", "/lights/0: missing key \"position_mm\""},
-        Refusal{R"({"version": 1, "lights": [{"kind": "point", "position_mm": [0,0,0], "direction": [0,0,1]}]})",
-                "/lights/0/direction: a point light has none"},
-        Refusal{R"({"version": 1, "lights": [{"kind": "directional", "direction": [0,0,0]}]})", "found a zero vector"},
-        Refusal{R"({"version": 1, "lights": [{"kind": "rect", "position_mm": [1,0,0], "target_mm": [1,0,0]}]})", "/lights/0/target_mm"},
+        Refusal{
+            R"({"version": 1, "lights": [{"kind": "point", "position_mm": [0,0,0], "direction": [0,0,1]}]})",
+            "/lights/0/direction: a point light has none"},
+        Refusal{R"({"version": 1, "lights": [{"kind": "directional", "direction": [0,0,0]}]})",
+                "found a zero vector"},
+        Refusal{
+            R"({"version": 1, "lights": [{"kind": "rect", "position_mm": [1,0,0], "target_mm": [1,0,0]}]})",
+            "/lights/0/target_mm"},
         Refusal{R"({"version": 1, "camera": {"eye_mm": [1,0,0], "target_mm": [1,0,0]}})", "/camera/eye_mm"},
-        Refusal{R"({"version": 1, "clip": {"x_mm": [5, 5]}})", "/clip/x_mm: found [5, 5], expected lower < upper"},
+        Refusal{R"({"version": 1, "clip": {"x_mm": [5, 5]}})",
+                "/clip/x_mm: found [5, 5], expected lower < upper"},
         Refusal{R"({"version": 1, "labels": {}})", "/labels: missing key \"path\""},
         Refusal{R"({"version": 1, "labels": {"path": ""}})", "/labels/path"}));
 
@@ -185,25 +214,49 @@ TEST(SceneFile, RefusesHugeAndDeepTexts) {
   EXPECT_THAT(error_of(std::string(1 << 20, '[')), HasSubstr("nested more than 16 deep"));
   std::string points = R"({"version": 1, "transfer": {"points": [)";
   for (int i = 0; i < 65537; ++i) points += i ? ",{\"value\":1}" : "{\"value\":1}";
-  EXPECT_THAT(error_of(points + "]}}"), HasSubstr("/transfer/points: found a list of 65537, expected at most 65536"));
+  EXPECT_THAT(error_of(points + "]}}"),
+              HasSubstr("/transfer/points: found a list of 65537, expected at most 65536"));
 }
 
 /// Every mutation of a valid scene is either a valid scene or one Error of one line.
 TEST(SceneFile, SurvivesDamage) {
   std::mt19937 random(11);
   const std::string whole = write_scene(full_scene(), true);
-  const std::string pieces[] = {"{", "}", "[", "]", ",", ":", "\"", "null", "-1", "1e400", "\\u0000", "\xff\xfe",
-                                "true", "{}", "[[[[[[[[[[[[[[[[[[[[", "99999999999999999999", "\"version\"", "\n"};
+  const std::string pieces[] = {"{",
+                                "}",
+                                "[",
+                                "]",
+                                ",",
+                                ":",
+                                "\"",
+                                "null",
+                                "-1",
+                                "1e400",
+                                "\\u0000",
+                                "\xff\xfe",
+                                "true",
+                                "{}",
+                                "[[[[[[[[[[[[[[[[[[[[",
+                                "99999999999999999999",
+                                "\"version\"",
+                                "\n"};
   int valid = 0;
   for (int i = 0; i < 1000; ++i) {
     std::string text = whole;
     for (unsigned n = 1 + random() % 3; n > 0; --n) {
       const std::size_t at = random() % text.size();
       switch (random() % 4) {
-        case 0: text[at] = static_cast<char>(random()); break;
-        case 1: text.erase(at, 1 + random() % 40); break;
-        case 2: text.insert(at, pieces[random() % std::size(pieces)]); break;
-        default: text.resize(at + 1);
+        case 0:
+          text[at] = static_cast<char>(random());
+          break;
+        case 1:
+          text.erase(at, 1 + random() % 40);
+          break;
+        case 2:
+          text.insert(at, pieces[random() % std::size(pieces)]);
+          break;
+        default:
+          text.resize(at + 1);
       }
     }
     try {

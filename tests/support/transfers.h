@@ -35,8 +35,8 @@ inline TransferDescription opacity_function(const CurvePoints& points, double re
   return d;
 }
 
-/// The curve through `points` in double precision, found by walking over them. At a step: the value from above, or
-/// the one from below.
+/// The curve through `points` in double precision, found by walking over them. At a step: the value from
+/// above, or the one from below.
 inline double curve_at(const CurvePoints& points, double value, bool from_above = true) {
   const auto past = [&](double knot) { return from_above ? knot > value : knot >= value; };
   std::size_t next = 0;
@@ -83,7 +83,8 @@ inline CurvePoints random_curve(double lower, double upper, double y_max, int se
       points.emplace_back(v, level());
     }
   }
-  std::stable_sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::stable_sort(points.begin(), points.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
   return points;
 }
 

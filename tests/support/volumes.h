@@ -64,10 +64,12 @@ Volume make_volume(Size3 size, Value&& value, const Placement& placement = {}) {
 
 /// Independent uniform voxels over [lower, upper].
 template <class T>
-Volume noise_volume(Size3 size, double lower, double upper, std::uint64_t seed, const Placement& placement = {}) {
+Volume noise_volume(Size3 size, double lower, double upper, std::uint64_t seed,
+                    const Placement& placement = {}) {
   Rng rng(seed, 0, 0, 0);
   return make_volume<T>(
-      size, [&](auto, auto, auto) { return lower + (upper - lower) * static_cast<double>(rng.next()); }, placement);
+      size, [&](auto, auto, auto) { return lower + (upper - lower) * static_cast<double>(rng.next()); },
+      placement);
 }
 
 /// Noise over much of what T can hold, or over [-1000, 1000] for floating point.
@@ -85,7 +87,8 @@ float voxel_at(const Volume& volume, std::int64_t i, std::int64_t j, std::int64_
   return static_cast<float>(voxels[(k * volume.size[1] + j) * volume.size[0] + i]);
 }
 
-/// Trilinear interpolation in double precision as a weighted sum over the eight voxels; clamped at the borders.
+/// Trilinear interpolation in double precision as a weighted sum over the eight voxels; clamped at the
+/// borders.
 template <class T>
 double reference_trilinear(const Volume& volume, Vec3d p_index) {
   std::int64_t low[3];

@@ -98,12 +98,14 @@ TEST(ToneMap, EmptyPixelIsTransparentBlack) {
 }
 
 TEST(ToneMap, AlphaIsDroppedUnlessAskedFor) {
-  EXPECT_EQ(developed(one_pixel(1, 1, 1, 0.25f), {.curve = ToneCurve::kSrgb}), (std::vector<int>{255, 255, 255}));
+  EXPECT_EQ(developed(one_pixel(1, 1, 1, 0.25f), {.curve = ToneCurve::kSrgb}),
+            (std::vector<int>{255, 255, 255}));
 }
 
 TEST(ToneMap, NonfiniteBecomesZero) {
   const float nan = std::nanf(""), infinity = std::numeric_limits<float>::infinity();
-  EXPECT_EQ(developed(one_pixel(nan, infinity, 1), {.curve = ToneCurve::kSrgb}), (std::vector<int>{0, 0, 255}));
+  EXPECT_EQ(developed(one_pixel(nan, infinity, 1), {.curve = ToneCurve::kSrgb}),
+            (std::vector<int>{0, 0, 255}));
   EXPECT_EQ(developed(one_pixel(1, 1, 1, nan), {.transparent = true}), (std::vector<int>{0, 0, 0, 0}));
 }
 

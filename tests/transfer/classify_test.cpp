@@ -26,7 +26,8 @@ void expect_converts(const CurvePoints& points, double reference_mm) {
   Rng rng(1, 0, 0, 0);
   const double lower = points.front().first, width = points.back().first - lower;
   for (int n = 0; n < 20000; ++n) {
-    const auto value = static_cast<float>(lower - 0.1 * width + 1.2 * width * static_cast<double>(rng.next()));
+    const auto value =
+        static_cast<float>(lower - 0.1 * width + 1.2 * width * static_cast<double>(rng.next()));
     const double expected = extinction(test::curve_at(points, value), reference_mm);
     ASSERT_NEAR(classify_mu_t(function.view(), value), expected, 2e-4 * expected) << "at " << value;
   }
@@ -170,7 +171,8 @@ TEST(Classify, ColoursAreInterpolatedLinearlyBetweenTheirOwnPoints) {
 
 TEST(Classify, ColourSteps) {
   TransferDescription d = mu_t_function({{0, 1}, {5, 1}, {5, 1}, {9, 1}});
-  for (int i = 0; i < 4; ++i) d.points[static_cast<std::size_t>(i)].color = i < 2 ? linear(1, 0, 0) : linear(0, 0, 1);
+  for (int i = 0; i < 4; ++i)
+    d.points[static_cast<std::size_t>(i)].color = i < 2 ? linear(1, 0, 0) : linear(0, 0, 1);
   const TransferFunction function(d);
   EXPECT_EQ(classify(function.view(), 4.9f).albedo, Vec3f(1, 0, 0));
   EXPECT_EQ(classify(function.view(), 5.0f).albedo, Vec3f(0, 0, 1));
@@ -201,7 +203,8 @@ TEST(FindPiece, IsTheLastThatStartsAtOrBelowTheValue) {
     std::vector<float> values{kInfinity, -kInfinity, 3e38f, -3e38f, 0.0f, 1e-45f};
     for (int i = 1; i < view.piece_count; ++i) {
       const float start = view.pieces[i].start;
-      values.insert(values.end(), {start, std::nextafter(start, kInfinity), std::nextafter(start, -kInfinity)});
+      values.insert(values.end(),
+                    {start, std::nextafter(start, kInfinity), std::nextafter(start, -kInfinity)});
     }
     for (int i = 0; i < 500; ++i) values.push_back(static_cast<float>((rng.next() * 5 - 2) * scale));
     for (const float v : values) {

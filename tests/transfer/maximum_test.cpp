@@ -43,7 +43,8 @@ TEST(MaxMuT, IsTheAnalyticSupremum) {
       const float maximum = function.max_mu_t(lower, upper);
       ASSERT_GE(maximum, greatest_look_up(function.view(), points, lower, upper)) << lower << " " << upper;
       // Coefficients are floats: the value of a piece rounds relative to its greatest end.
-      ASSERT_NEAR(maximum, test::curve_maximum(points, lower, upper), 80 * 4 * 1.2e-7) << lower << " " << upper;
+      ASSERT_NEAR(maximum, test::curve_maximum(points, lower, upper), 80 * 4 * 1.2e-7)
+          << lower << " " << upper;
     }
   }
 }

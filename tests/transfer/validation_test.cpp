@@ -10,7 +10,8 @@ namespace {
 using test::mu_t_function;
 using test::opacity_function;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN(), kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN(),
+                 kInfinity = std::numeric_limits<double>::infinity();
 
 void expect_refused(const TransferDescription& d, const std::string& where) {
   try {

@@ -9,6 +9,15 @@
 namespace voxlume::test {
 namespace {
 
+/// True when "0x" and eight or more hexadecimal digits stand in the text.
+bool has_address(const std::string& text) {
+  for (std::size_t at = text.find("0x"); at != std::string::npos; at = text.find("0x", at + 2)) {
+    const std::size_t end = text.find_first_not_of("0123456789abcdef", at + 2);
+    if ((end == std::string::npos ? text.size() : end) - (at + 2) >= 8) return true;
+  }
+  return false;
+}
+
 /// Reads damaged files and counts: each must give an Error of one line. Where damage may go unnoticed (a flipped bit in
 /// a voxel), reading without an error is allowed, but then the volume must be whole.
 class Damage : public testing::Test {
@@ -50,7 +59,7 @@ class Damage : public testing::Test {
     const std::string what = error.what();
     EXPECT_GT(error.message().size(), 10u);
     for (const char c : what) ASSERT_GE(static_cast<unsigned char>(c), ' ') << what;
-    EXPECT_EQ(what.find("0x"), std::string::npos) << what;
+    EXPECT_FALSE(has_address(what)) << what;
     EXPECT_EQ(what.find(".cxx"), std::string::npos) << what;
     EXPECT_NE(error.code(), ErrorCode::kInternal) << what;
   }
@@ -174,7 +183,7 @@ TEST_F(Damage, Nifti) {
   with(108, bytes_of<float>({NAN}), "offset not a number");
   with(108, bytes_of<float>({1e6f}), "offset beyond the end");
   with(344, "n+9", "other magic");
-  with(280, bytes_of<float>({NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN}) , "sform not a number");
+  with(256, bytes_of(std::vector<float>(18, NAN)), "qform and sform not numbers");
   EXPECT_GE(tried_, 80);
 }
 
@@ -210,7 +219,7 @@ TEST_F(Damage, Hdf5) {
 
 TEST_F(Damage, Tiff) {
   const std::string bytes = good("a.tif");
-  cut_short("a.tif", bytes);
+  cut_short("a.tif", bytes, 24);  // the last page's resolution, and the offset of a next page
   flip_bytes("a.tif", bytes, bytes.size(), 60);
   EXPECT_GE(tried_, 70);
 }

@@ -1,0 +1,155 @@
+#pragma once
+#include "scene/field_info.h"
+
+namespace voxlume {
+
+// Field tables (scene/field_table.h) of what is seen: volume, transfer function, labels, material, clip box.
+
+inline StructInfo struct_info(Struct<VolumeDescription>) { return {"Volume", "Where the voxels come from."}; }
+template <class V>
+void visit_fields(V&& visit, Struct<VolumeDescription>) {
+  using T = VolumeDescription;
+  visit({.key = "path", .doc = "File or DICOM folder; \"phantom\" is built in.", .is_path = true}, &T::path);
+  visit({.key = "raw",
+         .doc = "How to read a headerless file: \"WxHxD,type,sx,sy,sz[,little|big][,offset]\", type one of "
+                "u8 i8 u16 i16 u32 i32 f32 f64. Empty for files with a header."},
+        &T::raw);
+  visit({.key = "spacing_mm",
+         .doc = "Distance between voxel centres along the index axes.",
+         .unit = "mm",
+         .range = above_to(0, 1e6),
+         .absent = "the file's"},
+        &T::spacing_mm);
+  visit({.key = "origin_mm",
+         .doc = "Position of the first voxel's centre.",
+         .unit = "mm, LPS",
+         .absent = "the file's"},
+        &T::origin_mm);
+  visit({.key = "direction",
+         .doc = "Directions of the index axes: row-major 3x3, column a is the LPS direction of axis a; "
+                "orthonormal.",
+         .absent = "the file's"},
+        &T::direction);
+}
+
+inline StructInfo struct_info(Struct<TransferPoint>) {
+  return {"TransferPoint",
+          "One control point. Every coefficient has its own piecewise-linear curve through the points that "
+          "give it. A function uses opacity or mu_t_per_mm, not both."};
+}
+template <class V>
+void visit_fields(V&& visit, Struct<TransferPoint>) {
+  using T = TransferPoint;
+  visit({.key = "value",
+         .doc = "Data value in the file's own units (HU, intensity). Points are sorted by it; two at one "
+                "value are a step.",
+         .required = true},
+        &T::value);
+  visit({.key = "opacity",
+         .doc = "Opacity of a layer one reference length thick.",
+         .range = between(0, 1),
+         .absent = "the curve passes by"},
+        &T::opacity);
+  visit({.key = "mu_t_per_mm",
+         .doc = "Extinction, instead of an opacity.",
+         .unit = "1/mm",
+         .range = at_least(0),
+         .absent = "the curve passes by"},
+        &T::mu_t_per_mm);
+  visit(
+      {.key = "color", .doc = "Scattering albedo.", .range = between(0, 1), .absent = "the curve passes by"},
+      &T::color);
+  visit({.key = "emission",
+         .doc = "Emitted radiance of an opaque region.",
+         .range = at_least(0),
+         .absent = "the curve passes by"},
+        &T::emission);
+}
+
+inline StructInfo struct_info(Struct<TransferDescription>) {
+  return {"Transfer", "Data value to optical coefficients: the data is interpolated first, then classified."};
+}
+template <class V>
+void visit_fields(V&& visit, Struct<TransferDescription>) {
+  using T = TransferDescription;
+  visit({.key = "preset", .doc = "Name of a preset (`voxlume presets`); used where points is empty."},
+        &T::preset);
+  visit({.key = "reference_length_mm",
+         .doc = "Thickness an opacity refers to: mu_t = -ln(1 - min(opacity, 0.9999)) / reference_length_mm.",
+         .unit = "mm",
+         .range = above(0),
+         .absent = "1 mm for CT, else longest side / 256"},
+        &T::reference_length_mm);
+  visit({.key = "density_scale", .doc = "Multiplies the extinction.", .range = between(0, 1e6)},
+        &T::density_scale);
+  visit({.key = "points", .doc = "Control points, sorted by value.", .max_count = 65536}, &T::points);
+}
+
+inline StructInfo struct_info(Struct<LabelsDescription>) {
+  return {"Labels",
+          "Colors of a label volume over the transfer function's color, looked up without interpolation. The "
+          "opacity is not changed."};
+}
+template <class V>
+void visit_fields(V&& visit, Struct<LabelsDescription>) {
+  using T = LabelsDescription;
+  visit(
+      {.key = "path", .doc = "Label volume: any integer type, any grid.", .required = true, .is_path = true},
+      &T::path);
+  visit({.key = "names",
+         .doc = "Text file of label names and colors (.txt or .lut). Empty looks beside the label volume.",
+         .is_path = true},
+        &T::names);
+  visit({.key = "strength",
+         .doc = "How much of the label's color replaces the transfer function's.",
+         .range = between(0, 1)},
+        &T::strength);
+}
+
+inline StructInfo struct_info(Struct<MaterialDescription>) {
+  return {"Material", "How matter scatters, beyond its albedo."};
+}
+template <class V>
+void visit_fields(V&& visit, Struct<MaterialDescription>) {
+  using T = MaterialDescription;
+  visit({.key = "shading",
+         .doc = "Surface and medium together (coexistence), one of the two by chance (er), or one alone."},
+        &T::shading);
+  visit({.key = "surface_share", .doc = "How the share of the surface follows from gradient and opacity."},
+        &T::surface_share);
+  visit({.key = "gradient_factor",
+         .doc = "f of the surface share. hybrid: exponent 25 f^3; exponential: f itself.",
+         .range = between(0, 1e3)},
+        &T::gradient_factor);
+  visit({.key = "opacity_modulated", .doc = "hybrid: multiply the surface share by the opacity."},
+        &T::opacity_modulated);
+  visit({.key = "anisotropy", .doc = "g of the Henyey-Greenstein phase function.", .range = inside(-1, 1)},
+        &T::anisotropy);
+  visit({.key = "roughness", .doc = "Of the surface lobe: GGX alpha = roughness^2.", .range = between(0, 1)},
+        &T::roughness);
+  visit({.key = "specular",
+         .doc = "Fresnel F0 = 0.08 specular; 0 leaves a Lambert surface.",
+         .range = between(0, 1)},
+        &T::specular);
+}
+
+inline StructInfo struct_info(Struct<ClipDescription>) {
+  return {"Clip", "Keeps what is inside an axis-aligned box of LPS space."};
+}
+template <class V>
+void visit_fields(V&& visit, Struct<ClipDescription>) {
+  using T = ClipDescription;
+  constexpr NumberRange kAnywhere = between(-1e30, 1e30);
+  visit({.key = "x_mm",
+         .doc = "Lower and upper end; +x is the patient's left.",
+         .unit = "mm",
+         .range = kAnywhere},
+        &T::x_mm);
+  visit({.key = "y_mm", .doc = "Lower and upper end; +y is posterior.", .unit = "mm", .range = kAnywhere},
+        &T::y_mm);
+  visit({.key = "z_mm", .doc = "Lower and upper end; +z is the head.", .unit = "mm", .range = kAnywhere},
+        &T::z_mm);
+  visit({.key = "blocks_light", .doc = "What is cut away still casts its shadow."}, &T::blocks_light);
+}
+
+}  // namespace voxlume
