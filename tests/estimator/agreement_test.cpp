@@ -33,7 +33,7 @@ LightDescription area_light() {
   light.position_mm = Double3{-40, -50, 40};
   light.target_mm = Double3{0, 0, 0};
   light.up = Double3{0, 0, 1};
-  light.size_mm = {40, 30};
+  light.size_mm = {90, 70};
   light.intensity = 4;
   return light;
 }
@@ -147,7 +147,7 @@ TEST_P(Techniques, AgreeInMean) {
   const auto with = [&](const char* technique, std::uint64_t seed) {
     scene.render.light_sampling = technique;
     scene.render.seed = seed;
-    return estimate(scene, two_blobs(), 150);
+    return estimate(scene, two_blobs(), 200);
   };
   const Estimate both = with("mis", 1), light_only = with("light", 2);
   expect_same_mean(both, light_only);
