@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -18,13 +19,12 @@ EnvironmentImage read_environment(const std::filesystem::path& path, const Image
   for (std::size_t i = 0; i < image.pixel_count(); ++i) {
     for (int c = 0; c < 3; ++c) {
       const float value = image.rgba[4 * i + c];
-      if (!std::isfinite(value) || value < 0) {
+      if (!std::isfinite(value)) {
         throw Error(ErrorCode::kBadFormat, path.string(),
-                    "has the value " + std::to_string(value) + " at pixel " +
-                        std::to_string(i % image.width) + "," + std::to_string(i / image.width) +
-                        "; expected finite radiance, 0 or more");
+                    "has the value " + std::to_string(value) + " at pixel " + std::to_string(i % image.width) + "," +
+                        std::to_string(i / image.width) + "; expected finite radiance");
       }
-      environment.rgb.push_back(value);
+      environment.rgb.push_back(std::max(value, 0.0f));
     }
   }
   return environment;

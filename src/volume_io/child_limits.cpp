@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstring>
 #include <fstream>
 
 #include "volume_io/memory_limit.h"
@@ -28,6 +29,7 @@ int __sanitizer_install_malloc_and_free_hooks(void (*)(const volatile void*, std
                                               void (*)(const volatile void*));
 std::size_t __sanitizer_get_allocated_size(const volatile void*);
 void __sanitizer_set_report_fd(void*);
+__attribute__((weak)) void __asan_set_error_report_callback(void (*)(const char*));
 }
 #endif
 
@@ -88,7 +90,13 @@ void start_memory_limit(std::uint64_t bytes) {
 
 void raise_memory_limit(std::uint64_t, std::uint64_t working_bytes) { allowed_bytes += working_bytes + kSlackBytes; }
 
+/// A size that only a damaged file asks for is no defect of the reader.
+void tell_absurd_size(const char* report) {
+  if (std::strstr(report, "allocation-size-too-big")) _exit(kChildOutOfMemory);
+}
+
 void keep_sanitizer_reports() {
+  if (__asan_set_error_report_callback) __asan_set_error_report_callback(tell_absurd_size);
   __sanitizer_set_report_fd(reinterpret_cast<void*>(static_cast<std::intptr_t>(dup(STDERR_FILENO))));
 }
 
@@ -111,6 +119,14 @@ void keep_sanitizer_reports() {}
 #endif
 
 }  // namespace
+
+bool has_sanitizer() {
+#ifdef VOXLUME_SANITIZED
+  return true;
+#else
+  return false;
+#endif
+}
 
 void enter_child_limits(const std::filesystem::path& path) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);

@@ -7,6 +7,10 @@ namespace voxlume {
 /// Exit codes of the reading child; anything but 0 means that it sent no result.
 inline constexpr int kChildFailed = 97;
 inline constexpr int kChildOutOfMemory = 98;
+inline constexpr int kChildSanitizerReport = 1;  ///< in builds with address or thread sanitizer
+
+/// True in builds with address or thread sanitizer, where a crash of the child is a defect to be found.
+bool has_sanitizer();
 
 /// Called first in the child: silences the libraries, ends with the parent, takes back the parent's signal handlers,
 /// and limits processor time and memory to what a header may need.

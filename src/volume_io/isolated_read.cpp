@@ -111,6 +111,9 @@ ChildOutcome await_child(pid_t child, int result, std::chrono::seconds limit) {
   if (out_of_time) {
     fail(ErrorCode::kBadFormat, path, fmt::format("the reader of {} did not finish in time (damaged?)", name));
   }
+  if (has_sanitizer() && WIFEXITED(outcome.status) && WEXITSTATUS(outcome.status) == kChildSanitizerReport) {
+    fail(ErrorCode::kInternal, path, fmt::format("a sanitizer stopped the reader of {}; its report is on stderr", name));
+  }
   const bool out_of_memory = WIFEXITED(outcome.status) && WEXITSTATUS(outcome.status) == kChildOutOfMemory;
   fail(ErrorCode::kBadFormat, path,
        fmt::format("the reader of {} {} on this file (damaged?)", name,

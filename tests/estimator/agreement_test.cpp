@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "image_io/image_io.h"
+#include "support/temporary_folder.h"
 #include "test_scene.h"
 
 namespace voxlume::test {
@@ -132,6 +134,24 @@ TEST(Agreement, VarianceGapOfTheEventChoiceIsThePredictedOne) {
   EXPECT_GT(predicted.mean(), 8 * difference.standard_error());
 }
 
+/// A dim sky with a small sun, as a picture; the file lives as long as the program.
+const std::string& sky_file() {
+  static const TemporaryFolder folder;
+  static const std::string path = [] {
+    Image sky(32, 16);
+    for (int y = 0; y < 16; ++y)
+      for (int x = 0; x < 32; ++x)
+        for (int c = 0; c < 4; ++c) sky.pixel(x, y)[c] = c == 3 ? 1.0f : 0.1f * static_cast<float>(16 - y) / 16;
+    for (int y = 3; y < 6; ++y)
+      for (int x = 4; x < 8; ++x)
+        for (int c = 0; c < 3; ++c) sky.pixel(x, y)[c] = 8;
+    const std::string name = (folder / "sky.exr").string();
+    write_exr(sky, name);
+    return name;
+  }();
+  return path;
+}
+
 struct LightCase {
   const char* name;
   void (*set)(SceneDescription&);
@@ -162,6 +182,12 @@ TEST_P(Techniques, AgreeInMean) {
 INSTANTIATE_TEST_SUITE_P(
     EveryLightAtEveryLimit, Techniques,
     testing::Combine(testing::Values(LightCase{"constant", [](SceneDescription& s) { s.environment->intensity = 1; }},
+                                     LightCase{"picture",
+                                               [](SceneDescription& s) {
+                                                 s.environment->intensity = 1;
+                                                 s.environment->image = sky_file();
+                                                 s.environment->rotation_deg = 40;
+                                               }},
                                      LightCase{"rect", [](SceneDescription& s) { s.lights = {area_light()}; }},
                                      LightCase{"rect_inside",
                                                [](SceneDescription& s) {
