@@ -42,9 +42,10 @@ std::vector<TransferPoint> ct_muscle_bone(const VolumeStatistics&) {
 
 /// Matter against air, opaque: the surface of a head.
 std::vector<TransferPoint> mri_head(const VolumeStatistics& s) {
-  const double air = otsu_threshold(s), bright = s.percentile(0.995);
+  const double air = otsu_threshold(s), bright = std::max<double>(s.percentile(0.995), air);
+  const auto below = [&](double f) { return s.lower + f * (air - s.lower); };
   const auto at = [&](double f) { return air + f * (bright - air); };
-  return {point(0.55 * air, 0, 0xd9a996), point(0.9 * air, 0.35, 0xe3b9a4), point(at(0.3), 0.75, 0xeac9b6),
+  return {point(below(0.55), 0, 0xd9a996), point(below(0.9), 0.35, 0xe3b9a4), point(at(0.3), 0.75, 0xeac9b6),
           point(at(0.7), 0.9, 0xf0dccd), point(bright, 0.95, 0xf6eee4)};
 }
 

@@ -67,7 +67,7 @@ class VdbReader : public VolumeReader {
     }
     for (auto leaf = tree.beginLeaf(); leaf; ++leaf) {
       copy_leaf(*leaf);
-      FloatGrid::TreeType::LeafNodeType::Buffer freed;
+      FloatGrid::TreeType::LeafNodeType::Buffer freed(openvdb::PartialCreate(), 0.0f);  // holds nothing
       leaf->swap(freed);
     }
   }

@@ -142,8 +142,8 @@ const std::string& sky_file() {
     for (int y = 0; y < 16; ++y)
       for (int x = 0; x < 32; ++x)
         for (int c = 0; c < 4; ++c) sky.pixel(x, y)[c] = c == 3 ? 1.0f : 0.1f * static_cast<float>(16 - y) / 16;
-    for (int y = 3; y < 6; ++y)
-      for (int x = 4; x < 8; ++x)
+    for (int y = 2; y < 7; ++y)
+      for (int x = 4; x < 10; ++x)
         for (int c = 0; c < 3; ++c) sky.pixel(x, y)[c] = 8;
     const std::string name = (folder / "sky.exr").string();
     write_exr(sky, name);
