@@ -14,6 +14,9 @@ namespace voxlume {
 namespace {
 
 constexpr std::size_t kMaxLabel = 1u << 20;
+/// Optical depth of one voxel above which a transfer function is refused: a ray would take as many steps through it
+/// as its majorant says, and beyond this float distances no longer move on.
+constexpr double kMaxVoxelDepth = 1e5;
 
 Vec3f to_vec(const Color& color) { return {color.linear[0], color.linear[1], color.linear[2]}; }
 
@@ -58,6 +61,11 @@ CompiledScene::CompiledScene(SceneDescription description, Volume volume, const 
 }
 
 void CompiledScene::compile_medium() {
+  const double voxel_depth = double{transfer_.max_mu_t()} * make_grid_view(volume_).step_mm;
+  if (voxel_depth > kMaxVoxelDepth)
+    throw Error(ErrorCode::kBadParameter, "/transfer",
+                "its densest matter has an optical depth of " + std::to_string(voxel_depth) +
+                    " in one voxel; expected at most 100000");
   const auto start = std::chrono::steady_clock::now();
   majorants_.update(transfer_);
   majorant_build_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();

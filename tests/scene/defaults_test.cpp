@@ -123,6 +123,20 @@ TEST(Resolve, RefusesAClipBoxThatKeepsNothing) {
   EXPECT_THROW(resolve(scene, phantom, compute_statistics(make_grid_view(phantom))), Error);
 }
 
+TEST(Compile, RefusesExtinctionThatNoRayGetsThrough) {
+  const Volume phantom = make_head_phantom();
+  const VolumeStatistics statistics = compute_statistics(make_grid_view(phantom));
+  SceneDescription scene = resolve({}, phantom, statistics);
+  scene.transfer.density_scale = 1e6;
+  try {
+    const CompiledScene compiled(scene, phantom, statistics);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kBadParameter);
+    EXPECT_THAT(error.what(), HasSubstr("/transfer"));
+  }
+}
+
 TEST(Compile, RefusesWhatIsNotBuilt) {
   const Volume phantom = make_head_phantom();
   const VolumeStatistics statistics = compute_statistics(make_grid_view(phantom));
