@@ -88,7 +88,9 @@ void start_memory_limit(std::uint64_t bytes) {
   __sanitizer_install_malloc_and_free_hooks(count_allocation, count_release);
 }
 
-void raise_memory_limit(std::uint64_t, std::uint64_t working_bytes) { allowed_bytes += working_bytes + kSlackBytes; }
+void raise_memory_limit(std::uint64_t, std::uint64_t working_bytes) {
+  allowed_bytes += working_bytes + kSlackBytes;
+}
 
 /// A size that only a damaged file asks for is no defect of the reader.
 void tell_absurd_size(const char* report) {

@@ -12,8 +12,8 @@ inline constexpr int kChildSanitizerReport = 1;  ///< in builds with address or 
 /// True in builds with address or thread sanitizer, where a crash of the child is a defect to be found.
 bool has_sanitizer();
 
-/// Called first in the child: silences the libraries, ends with the parent, takes back the parent's signal handlers,
-/// and limits processor time and memory to what a header may need.
+/// Called first in the child: silences the libraries, ends with the parent, takes back the parent's signal
+/// handlers, and limits processor time and memory to what a header may need.
 void enter_child_limits(const std::filesystem::path& path);
 
 /// Raises the memory limit by the voxels and what the reader needs besides.

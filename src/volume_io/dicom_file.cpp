@@ -69,14 +69,16 @@ int word_of(const DataSet& data, const Tag& tag, int otherwise) {
 }
 
 /// The first item of a sequence that has one.
-const DataSet* first_item(const DataSet& data, const Tag& tag, gdcm::SmartPointer<gdcm::SequenceOfItems>& owner) {
+const DataSet* first_item(const DataSet& data, const Tag& tag,
+                          gdcm::SmartPointer<gdcm::SequenceOfItems>& owner) {
   if (!data.FindDataElement(tag)) return nullptr;
   owner = data.GetDataElement(tag).GetValueAsSQ();
   return owner && owner->GetNumberOfItems() > 0 ? &owner->GetItem(1).GetNestedDataSet() : nullptr;
 }
 
 void read_plane(const DataSet& data, DicomFrame& frame) {
-  if (const auto p = numbers_of(data, {0x0020, 0x0032}, 3); !p.empty()) frame.position_mm = {p[0], p[1], p[2]};
+  if (const auto p = numbers_of(data, {0x0020, 0x0032}, 3); !p.empty())
+    frame.position_mm = {p[0], p[1], p[2]};
   if (const auto o = numbers_of(data, {0x0020, 0x0037}, 6); !o.empty()) {
     frame.orientation = {o[0], o[1], o[2], o[3], o[4], o[5]};
   }
@@ -93,7 +95,8 @@ double slice_step(const DataSet& data, double otherwise) {
 /// The functional groups of an enhanced multi-frame file: PlanePosition, PlaneOrientation, PixelMeasures and
 /// PixelValueTransformation, each a sequence of one item.
 void read_groups(const DataSet& data, DicomFrame& frame, double& step_mm) {
-  for (const Tag& tag : {Tag(0x0020, 0x9113), Tag(0x0020, 0x9116), Tag(0x0028, 0x9110), Tag(0x0028, 0x9145)}) {
+  for (const Tag& tag :
+       {Tag(0x0020, 0x9113), Tag(0x0020, 0x9116), Tag(0x0028, 0x9110), Tag(0x0028, 0x9145)}) {
     gdcm::SmartPointer<gdcm::SequenceOfItems> owner;
     if (const DataSet* item = first_item(data, tag, owner)) {
       read_plane(*item, frame);
@@ -116,7 +119,8 @@ void read_frames(const DataSet& data, DicomFile& file) {
   }
   shared.position_mm.reset();  // one position cannot be that of every frame
   gdcm::SmartPointer<gdcm::SequenceOfItems> owner;
-  if (const DataSet* item = first_item(data, {0x5200, 0x9229}, owner)) read_groups(*item, shared, file.slice_step_mm);
+  if (const DataSet* item = first_item(data, {0x5200, 0x9229}, owner))
+    read_groups(*item, shared, file.slice_step_mm);
   file.frames.assign(static_cast<std::size_t>(std::min(count, kMaxFrames)), shared);
   const Tag per_frame(0x5200, 0x9230);
   if (!data.FindDataElement(per_frame)) return;
@@ -151,11 +155,12 @@ class WatchedFile : public std::filebuf {
 };
 
 const std::set<Tag>& structural_tags() {
-  static const std::set<Tag> kTags = {
-      {0x0008, 0x0016}, {0x0008, 0x0060}, {0x0018, 0x0050}, {0x0018, 0x0088}, {0x0018, 0x1120}, {0x0018, 0x1164},
-      {0x0020, 0x000e}, {0x0020, 0x0011}, {0x0020, 0x0013}, {0x0020, 0x0032}, {0x0020, 0x0037}, {0x0028, 0x0002},
-      {0x0028, 0x0004}, {0x0028, 0x0008}, {0x0028, 0x0010}, {0x0028, 0x0011}, {0x0028, 0x0030}, {0x0028, 0x0100},
-      {0x0028, 0x0101}, {0x0028, 0x0103}, {0x0028, 0x1052}, {0x0028, 0x1053}, {0x5200, 0x9229}, {0x5200, 0x9230}};
+  static const std::set<Tag> kTags = {{0x0008, 0x0016}, {0x0008, 0x0060}, {0x0018, 0x0050}, {0x0018, 0x0088},
+                                      {0x0018, 0x1120}, {0x0018, 0x1164}, {0x0020, 0x000e}, {0x0020, 0x0011},
+                                      {0x0020, 0x0013}, {0x0020, 0x0032}, {0x0020, 0x0037}, {0x0028, 0x0002},
+                                      {0x0028, 0x0004}, {0x0028, 0x0008}, {0x0028, 0x0010}, {0x0028, 0x0011},
+                                      {0x0028, 0x0030}, {0x0028, 0x0100}, {0x0028, 0x0101}, {0x0028, 0x0103},
+                                      {0x0028, 0x1052}, {0x0028, 0x1053}, {0x5200, 0x9229}, {0x5200, 0x9230}};
   return kTags;
 }
 
@@ -214,12 +219,14 @@ std::vector<char> read_dicom_pixels(const DicomFile& file) {
   }
   const gdcm::ByteValue* plain = image.GetDataElement().GetByteValue();
   if (plain && !image.GetTransferSyntax().IsEncapsulated() && plain->GetLength() < expected) {
-    fail(ErrorCode::kBadFormat, file.path,
-         fmt::format("expected {} bytes of pixels, file has {}", expected, std::uint64_t{plain->GetLength()}));
+    fail(
+        ErrorCode::kBadFormat, file.path,
+        fmt::format("expected {} bytes of pixels, file has {}", expected, std::uint64_t{plain->GetLength()}));
   }
   std::vector<char> pixels(expected);
   if (!image.GetBuffer(pixels.data())) {
-    fail(ErrorCode::kBadFormat, file.path, "the DICOM pixels cannot be decoded (damaged, or an unknown compression)");
+    fail(ErrorCode::kBadFormat, file.path,
+         "the DICOM pixels cannot be decoded (damaged, or an unknown compression)");
   }
   return pixels;
 }

@@ -11,14 +11,15 @@ namespace voxlume {
 /// What one frame says about its place and values.
 struct DicomFrame {
   std::optional<std::array<double, 3>> position_mm;  ///< ImagePosition: LPS centre of the first pixel
-  std::optional<std::array<double, 6>> orientation;  ///< ImageOrientation: unit direction along a row, along a column
-  std::array<double, 2> pixel_mm{0, 0};              ///< spacing along a row (i), along a column (j); 0 when not said
+  std::optional<std::array<double, 6>>
+      orientation;                       ///< ImageOrientation: unit direction along a row, along a column
+  std::array<double, 2> pixel_mm{0, 0};  ///< spacing along a row (i), along a column (j); 0 when not said
   double slope = 1;
   double intercept = 0;
 };
 
-/// The structural tags of one file. Nothing else of a DICOM file is ever kept: no name, date, place or identifier
-/// but series_uid, which only tells series apart and leaves no further than the reader.
+/// The structural tags of one file. Nothing else of a DICOM file is ever kept: no name, date, place or
+/// identifier but series_uid, which only tells series apart and leaves no further than the reader.
 struct DicomFile {
   std::filesystem::path path;
   std::string series_uid;
@@ -27,14 +28,14 @@ struct DicomFile {
   int instance_number = 0;
   int columns = 0;
   int rows = 0;
-  int samples = 1;         ///< values per pixel
+  int samples = 1;  ///< values per pixel
   int bits_allocated = 16;
   int bits_stored = 16;
   bool is_signed = false;
-  bool inverted = false;   ///< MONOCHROME1
+  bool inverted = false;  ///< MONOCHROME1
   bool palette = false;
-  double tilt_degrees = 0;      ///< GantryDetectorTilt
-  double slice_step_mm = 0;     ///< SpacingBetweenSlices, else SliceThickness; 0 when neither is there
+  double tilt_degrees = 0;   ///< GantryDetectorTilt
+  double slice_step_mm = 0;  ///< SpacingBetweenSlices, else SliceThickness; 0 when neither is there
   std::vector<DicomFrame> frames;
 };
 

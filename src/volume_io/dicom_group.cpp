@@ -30,8 +30,8 @@ bool same_spacing(const DicomFrame& a, const DicomFrame& b) {
 bool belongs(const std::vector<DicomFile>& files, FrameRef a, FrameRef b) {
   const DicomFile& file_a = files[a.file];
   const DicomFile& file_b = files[b.file];
-  return file_a.series_uid == file_b.series_uid && file_a.columns == file_b.columns && file_a.rows == file_b.rows &&
-         file_a.samples == file_b.samples && file_a.palette == file_b.palette &&
+  return file_a.series_uid == file_b.series_uid && file_a.columns == file_b.columns &&
+         file_a.rows == file_b.rows && file_a.samples == file_b.samples && file_a.palette == file_b.palette &&
          same_orientation(file_a.frames[a.frame], file_b.frames[b.frame]) &&
          same_spacing(file_a.frames[a.frame], file_b.frames[b.frame]);
 }
@@ -61,14 +61,15 @@ std::vector<DicomGroup> make_groups(const std::vector<DicomFile>& files) {
 
 std::uint64_t voxels_of(const std::vector<DicomFile>& files, const DicomGroup& group) {
   const DicomFile& file = files[group.frames[0].file];
-  return static_cast<std::uint64_t>(file.columns) * static_cast<std::uint64_t>(file.rows) * group.frames.size();
+  return static_cast<std::uint64_t>(file.columns) * static_cast<std::uint64_t>(file.rows) *
+         group.frames.size();
 }
 
 std::string describe(const std::vector<DicomFile>& files, const DicomGroup& group) {
   const DicomFile& file = files[group.frames[0].file];
   return fmt::format("series {} ({}, {} slices of {}x{}{})", file.series_number,
-                     file.modality.empty() ? "unknown modality" : file.modality, group.frames.size(), file.columns,
-                     file.rows, file.samples > 1 ? ", colour" : "");
+                     file.modality.empty() ? "unknown modality" : file.modality, group.frames.size(),
+                     file.columns, file.rows, file.samples > 1 ? ", colour" : "");
 }
 
 /// Why a group cannot be read; empty when it can.
@@ -77,9 +78,10 @@ std::string refusal(const std::vector<DicomFile>& files, const DicomGroup& group
   if (file.samples != 1) return fmt::format("{} values per pixel (colour); expected one", file.samples);
   if (file.palette) return "palette colours; expected grey values";
   if (file.frames.size() > 1 && !file.frames[group.frames[0].frame].position_mm) {
-    return fmt::format("multi-frame DICOM of {} frames without a position for each (a time series?); expected a "
-                       "position for each frame",
-                       file.frames.size());
+    return fmt::format(
+        "multi-frame DICOM of {} frames without a position for each (a time series?); expected a "
+        "position for each frame",
+        file.frames.size());
   }
   return {};
 }
@@ -105,8 +107,8 @@ DicomGroup choose_series(const std::filesystem::path& where, const std::vector<D
       others += describe(files, group);
     }
     if (listed > kMaxListed) others += fmt::format(" and {} more", listed - kMaxListed);
-    warnings.push_back(fmt::format("{} series here; {} is read, being the largest; left out: {}", groups.size(),
-                                   describe(files, *best), others));
+    warnings.push_back(fmt::format("{} series here; {} is read, being the largest; left out: {}",
+                                   groups.size(), describe(files, *best), others));
   }
   return *best;
 }

@@ -19,8 +19,9 @@ struct DicomGroup {
   std::vector<FrameRef> frames;
 };
 
-/// The group with the most voxels. The other groups are listed in `warnings`, by series number, never by name.
-/// Throws Error kUnsupported when no group is a stack of one-valued pixels with a position for each frame.
+/// The group with the most voxels. The other groups are listed in `warnings`, by series number, never by
+/// name. Throws Error kUnsupported when no group is a stack of one-valued pixels with a position for each
+/// frame.
 DicomGroup choose_series(const std::filesystem::path& where, const std::vector<DicomFile>& files,
                          std::vector<std::string>& warnings);
 

@@ -17,9 +17,12 @@ using Vec = std::array<double, 3>;
 
 VoxelType stored_type(const std::filesystem::path& where, const DicomFile& file) {
   switch (file.bits_allocated) {
-    case 8: return file.is_signed ? VoxelType::kI8 : VoxelType::kU8;
-    case 16: return file.is_signed ? VoxelType::kI16 : VoxelType::kU16;
-    case 32: return file.is_signed ? VoxelType::kI32 : VoxelType::kU32;
+    case 8:
+      return file.is_signed ? VoxelType::kI8 : VoxelType::kU8;
+    case 16:
+      return file.is_signed ? VoxelType::kI16 : VoxelType::kU16;
+    case 32:
+      return file.is_signed ? VoxelType::kI32 : VoxelType::kU32;
     default:
       fail(ErrorCode::kUnsupported, where,
            fmt::format("DICOM pixels of {} bits; expected 8, 16 or 32", file.bits_allocated));
@@ -33,7 +36,8 @@ VoxelType rescaled_type(const DicomGroup& group, const std::vector<DicomFile>& f
   for (const FrameRef& ref : group.frames) {
     const DicomFile& file = files[ref.file];
     const DicomFrame& frame = file.frames[ref.frame];
-    if (frame.slope != std::floor(frame.slope) || frame.intercept != std::floor(frame.intercept)) return VoxelType::kF32;
+    if (frame.slope != std::floor(frame.slope) || frame.intercept != std::floor(frame.intercept))
+      return VoxelType::kF32;
     const int bits = std::clamp(file.bits_stored, 1, file.bits_allocated);
     const double first = file.is_signed ? -std::exp2(bits - 1) : 0;
     const double last = file.is_signed ? std::exp2(bits - 1) - 1 : std::exp2(bits) - 1;
@@ -96,8 +100,8 @@ class DicomReader : public VolumeReader {
       open_file = ref.file;
       const std::size_t stored_bytes = slice_values_ * static_cast<unsigned>(file.bits_allocated / 8);
       const DicomFrame& frame = file.frames[ref.frame];
-      rescale_voxels(pixels.data() + ref.frame * stored_bytes, stored_type(file.path, file), out + s * slice_bytes,
-                     type_, slice_values_, frame.slope, frame.intercept);
+      rescale_voxels(pixels.data() + ref.frame * stored_bytes, stored_type(file.path, file),
+                     out + s * slice_bytes, type_, slice_values_, frame.slope, frame.intercept);
     }
     fill_missing(out, slice_bytes);
   }
@@ -118,7 +122,8 @@ class DicomReader : public VolumeReader {
     }
     if (files.empty()) {
       fail(ErrorCode::kBadFormat, where_,
-           fmt::format("no readable DICOM image here ({} file(s) looked at); expected a series", paths_.size()));
+           fmt::format("no readable DICOM image here ({} file(s) looked at); expected a series",
+                       paths_.size()));
     }
     if (unreadable > 0) {
       volume.warnings.push_back(
@@ -133,7 +138,8 @@ class DicomReader : public VolumeReader {
     for (const FrameRef& ref : group_.frames) {
       const DicomFile& file = files_[ref.file];
       const DicomFrame& frame = file.frames[ref.frame];
-      as_stored = as_stored && stored_type(file.path, file) == stored && frame.slope == 1 && frame.intercept == 0;
+      as_stored =
+          as_stored && stored_type(file.path, file) == stored && frame.slope == 1 && frame.intercept == 0;
     }
     return as_stored ? stored : rescaled_type(group_, files_);
   }
@@ -141,7 +147,8 @@ class DicomReader : public VolumeReader {
   void place(Volume& volume) {
     const DicomFile& file = first_file();
     const DicomFrame& frame = file.frames[group_.frames[0].frame];
-    volume.spacing_mm = {frame.pixel_mm[0], frame.pixel_mm[1], file.slice_step_mm > 0 ? file.slice_step_mm : 1};
+    volume.spacing_mm = {frame.pixel_mm[0], frame.pixel_mm[1],
+                         file.slice_step_mm > 0 ? file.slice_step_mm : 1};
     if (frame.pixel_mm[0] == 0 && frame.pixel_mm[1] == 0) {
       volume.spacing_mm[0] = volume.spacing_mm[1] = 1;
       volume.warnings.push_back("the DICOM files give no pixel spacing; 1 mm is assumed");
@@ -150,8 +157,9 @@ class DicomReader : public VolumeReader {
       const auto& o = *frame.orientation;
       const Vec row = normalised({o[0], o[1], o[2]});
       const Vec column = normalised({o[3], o[4], o[5]});
-      const Vec normal = normalised({row[1] * column[2] - row[2] * column[1], row[2] * column[0] - row[0] * column[2],
-                                     row[0] * column[1] - row[1] * column[0]});
+      const Vec normal =
+          normalised({row[1] * column[2] - row[2] * column[1], row[2] * column[0] - row[0] * column[2],
+                      row[0] * column[1] - row[1] * column[0]});
       for (int r = 0; r < 3; ++r) {
         volume.direction[3 * r] = row[r];
         volume.direction[3 * r + 1] = column[r];
@@ -168,13 +176,15 @@ class DicomReader : public VolumeReader {
     if (!frame.position_mm || !frame.orientation) {
       for (std::size_t i = 0; i < group_.frames.size(); ++i) order_.slots.push_back(i);
       if (group_.frames.size() > 1) {
-        volume.warnings.push_back(fmt::format("the slices give no position: ordered by instance number, {:.4g} mm apart",
-                                              volume.spacing_mm[2]));
+        volume.warnings.push_back(
+            fmt::format("the slices give no position: ordered by instance number, {:.4g} mm apart",
+                        volume.spacing_mm[2]));
       }
       return;
     }
     std::vector<Vec> positions;
-    for (const FrameRef& ref : group_.frames) positions.push_back(*files_[ref.file].frames[ref.frame].position_mm);
+    for (const FrameRef& ref : group_.frames)
+      positions.push_back(*files_[ref.file].frames[ref.frame].position_mm);
     order_ = order_slices(positions, {volume.direction[2], volume.direction[5], volume.direction[8]});
     volume.origin_mm = positions[order_.slots[0]];
     if (order_.step_mm > 0) volume.spacing_mm[2] = order_.step_mm;
@@ -190,8 +200,10 @@ class DicomReader : public VolumeReader {
           "gantry tilt of {:.1f} degrees in the tags, but the slices are not sheared (already corrected?)",
           file.tilt_degrees));
     }
-    if (file.inverted) volume.warnings.push_back("MONOCHROME1: low values are meant to be bright; values are kept");
-    if (group_.frames.size() == 1) volume.warnings.push_back("a single slice; give the folder to read a whole series");
+    if (file.inverted)
+      volume.warnings.push_back("MONOCHROME1: low values are meant to be bright; values are kept");
+    if (group_.frames.size() == 1)
+      volume.warnings.push_back("a single slice; give the folder to read a whole series");
   }
 
   /// gdcm holds a file's pixels and the decoded copy at once.

@@ -7,9 +7,9 @@
 
 namespace voxlume {
 
-/// Reads the largest series among `files`: slices ordered by position along their normal, values rescaled to the
-/// modality's units. Warnings list the other series and everything that makes the stack uneven. `where` names the
-/// folder or file in errors.
+/// Reads the largest series among `files`: slices ordered by position along their normal, values rescaled to
+/// the modality's units. Warnings list the other series and everything that makes the stack uneven. `where`
+/// names the folder or file in errors.
 std::unique_ptr<VolumeReader> make_dicom_reader(const std::filesystem::path& where,
                                                 std::vector<std::filesystem::path> files);
 

@@ -7,7 +7,8 @@
 
 namespace voxlume {
 
-/// The text as one line: control characters and runs of blanks become one blank; longer than 400 bytes is cut.
+/// The text as one line: control characters and runs of blanks become one blank; longer than 400 bytes is
+/// cut.
 std::string one_line(std::string_view text);
 
 /// What a library says in an exception, without its source file, line, class name and address.

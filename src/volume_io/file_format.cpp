@@ -19,10 +19,10 @@ struct ExtensionRow {
 };
 
 constexpr ExtensionRow kExtensions[] = {
-    {".nrrd", FileFormat::kNrrd},     {".nhdr", FileFormat::kNrrd},  {".mha", FileFormat::kMetaImage},
-    {".mhd", FileFormat::kMetaImage}, {".nii", FileFormat::kNifti},  {".nii.gz", FileFormat::kNifti},
-    {".vtk", FileFormat::kVtk},       {".h5", FileFormat::kHdf5},    {".hdf5", FileFormat::kHdf5},
-    {".tif", FileFormat::kTiff},      {".tiff", FileFormat::kTiff},  {".vdb", FileFormat::kVdb},
+    {".nrrd", FileFormat::kNrrd},     {".nhdr", FileFormat::kNrrd},   {".mha", FileFormat::kMetaImage},
+    {".mhd", FileFormat::kMetaImage}, {".nii", FileFormat::kNifti},   {".nii.gz", FileFormat::kNifti},
+    {".vtk", FileFormat::kVtk},       {".h5", FileFormat::kHdf5},     {".hdf5", FileFormat::kHdf5},
+    {".tif", FileFormat::kTiff},      {".tiff", FileFormat::kTiff},   {".vdb", FileFormat::kVdb},
     {".dcm", FileFormat::kDicom},     {".dicom", FileFormat::kDicom}, {".ima", FileFormat::kDicom},
 };
 
@@ -34,7 +34,8 @@ struct MagicRow {
 
 using namespace std::string_view_literals;
 constexpr MagicRow kMagics[] = {
-    {128, "DICM"sv, FileFormat::kDicom},  // first: the 128 bytes before may look like another format on purpose
+    {128, "DICM"sv,
+     FileFormat::kDicom},  // first: the 128 bytes before may look like another format on purpose
     {0, "NRRD0"sv, FileFormat::kNrrd},
     {0, "# vtk DataFile"sv, FileFormat::kVtk},
     {0, "\x89HDF\r\n\x1a\n"sv, FileFormat::kHdf5},
@@ -51,7 +52,8 @@ constexpr MagicRow kMagics[] = {
 }  // namespace
 
 std::string_view format_name(FileFormat format) {
-  constexpr std::string_view kNames[] = {"NRRD", "MetaImage", "NIfTI", "legacy VTK", "HDF5", "TIFF", "OpenVDB", "DICOM"};
+  constexpr std::string_view kNames[] = {"NRRD", "MetaImage", "NIfTI",   "legacy VTK",
+                                         "HDF5", "TIFF",      "OpenVDB", "DICOM"};
   return kNames[static_cast<std::size_t>(format)];
 }
 
@@ -74,7 +76,8 @@ std::optional<FileFormat> format_of_content(const std::filesystem::path& path) {
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file) {
-    fail(ErrorCode::kFileNotFound, path, std::string("cannot open this file: ") + std::strerror(errno ? errno : EIO));
+    fail(ErrorCode::kFileNotFound, path,
+         std::string("cannot open this file: ") + std::strerror(errno ? errno : EIO));
   }
   std::array<char, 512> start{};
   file.read(start.data(), start.size());
@@ -86,6 +89,8 @@ std::optional<FileFormat> format_of_content(const std::filesystem::path& path) {
   return std::nullopt;
 }
 
-std::string_view known_extensions() { return ".nrrd .nhdr .mha .mhd .nii .nii.gz .tif .tiff .vtk .h5 .hdf5 .vdb"; }
+std::string_view known_extensions() {
+  return ".nrrd .nhdr .mha .mhd .nii .nii.gz .tif .tiff .vtk .h5 .hdf5 .vdb";
+}
 
 }  // namespace voxlume

@@ -64,13 +64,15 @@ void check_direction(const std::filesystem::path& path, Volume& volume) {
   }
   if (error > kMaxError) {
     fail(ErrorCode::kBadFormat, path,
-         fmt::format("the direction matrix ({}) is not orthonormal; expected perpendicular axes (resample a sheared "
-                     "volume first)",
-                     matrix_text(volume.direction)));
+         fmt::format(
+             "the direction matrix ({}) is not orthonormal; expected perpendicular axes (resample a sheared "
+             "volume first)",
+             matrix_text(volume.direction)));
   }
   if (error > kRoundingError) {
     volume.warnings.push_back(fmt::format(
-        "the axes are not quite perpendicular (off by {:.2g}); the nearest perpendicular axes are used", error));
+        "the axes are not quite perpendicular (off by {:.2g}); the nearest perpendicular axes are used",
+        error));
   }
   if (error > 1e-15) volume.direction = nearest_orthonormal(volume.direction);
 }

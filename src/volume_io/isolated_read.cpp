@@ -1,7 +1,7 @@
 #include "volume_io/isolated_read.h"
 
-#include <fmt/format.h>
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <poll.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
@@ -50,7 +50,8 @@ void write_all(int to, std::string_view text) {
 }
 
 /// The child's whole life. Never returns: exit handlers and destructors of the parent's objects must not run.
-[[noreturn]] void run_child(const std::filesystem::path& path, const ReadOptions& options, int voxel_file, int result) {
+[[noreturn]] void run_child(const std::filesystem::path& path, const ReadOptions& options, int voxel_file,
+                            int result) {
   std::string line;
   try {
     enter_child_limits(path);
@@ -75,7 +76,7 @@ void write_all(int to, std::string_view text) {
 
 struct ChildOutcome {
   std::string line;
-  int status = 0;        ///< as waitpid gives it; 0 when the child cannot be waited for
+  int status = 0;  ///< as waitpid gives it; 0 when the child cannot be waited for
   bool timed_out = false;
 };
 
@@ -86,9 +87,11 @@ ChildOutcome await_child(pid_t child, int result, std::chrono::seconds limit) {
   char text[4096];
   for (;;) {
     const auto left =
-        std::chrono::duration_cast<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now()).count();
+        std::chrono::duration_cast<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now())
+            .count();
     pollfd waiting{result, POLLIN, 0};
-    const int ready = left > 0 ? poll(&waiting, 1, static_cast<int>(std::min<long long>(left, 1'000'000'000))) : 0;
+    const int ready =
+        left > 0 ? poll(&waiting, 1, static_cast<int>(std::min<long long>(left, 1'000'000'000))) : 0;
     if (ready < 0 && errno == EINTR) continue;
     if (ready <= 0) {
       outcome.timed_out = true;
@@ -107,12 +110,15 @@ ChildOutcome await_child(pid_t child, int result, std::chrono::seconds limit) {
 
 [[noreturn]] void fail_child(const std::filesystem::path& path, const ChildOutcome& outcome) {
   const std::string name = reader_name(path);
-  const bool out_of_time = outcome.timed_out || (WIFSIGNALED(outcome.status) && WTERMSIG(outcome.status) == SIGXCPU);
+  const bool out_of_time =
+      outcome.timed_out || (WIFSIGNALED(outcome.status) && WTERMSIG(outcome.status) == SIGXCPU);
   if (out_of_time) {
-    fail(ErrorCode::kBadFormat, path, fmt::format("the reader of {} did not finish in time (damaged?)", name));
+    fail(ErrorCode::kBadFormat, path,
+         fmt::format("the reader of {} did not finish in time (damaged?)", name));
   }
   if (has_sanitizer() && WIFEXITED(outcome.status) && WEXITSTATUS(outcome.status) == kChildSanitizerReport) {
-    fail(ErrorCode::kInternal, path, fmt::format("a sanitizer stopped the reader of {}; its report is on stderr", name));
+    fail(ErrorCode::kInternal, path,
+         fmt::format("a sanitizer stopped the reader of {}; its report is on stderr", name));
   }
   const bool out_of_memory = WIFEXITED(outcome.status) && WEXITSTATUS(outcome.status) == kChildOutOfMemory;
   fail(ErrorCode::kBadFormat, path,
@@ -147,7 +153,8 @@ Volume read_isolated(const std::filesystem::path& path, const ReadOptions& optio
     const std::unique_lock lock(library_mutex());
     child = fork();
   }
-  if (child < 0) fail(ErrorCode::kInternal, path, fmt::format("cannot start the reader: {}", std::strerror(errno)));
+  if (child < 0)
+    fail(ErrorCode::kInternal, path, fmt::format("cannot start the reader: {}", std::strerror(errno)));
   if (child == 0) run_child(path, options, voxel_file.get(), to_parent.get());
   to_parent.reset();
   const ChildOutcome outcome = await_child(child, from_child.get(), limit);
@@ -158,7 +165,8 @@ Volume read_isolated(const std::filesystem::path& path, const ReadOptions& optio
 }
 
 Volume read_in_process(const std::filesystem::path& path, const ReadOptions& options) {
-  return read_staged(path, options, [&](std::uint64_t bytes, std::uint64_t) { return allocate_voxels(path, bytes); });
+  return read_staged(path, options,
+                     [&](std::uint64_t bytes, std::uint64_t) { return allocate_voxels(path, bytes); });
 }
 
 }  // namespace voxlume

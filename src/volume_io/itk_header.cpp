@@ -21,19 +21,36 @@ void set_type(const itk::ImageIOBase& io, const std::filesystem::path& path, Vol
   const std::size_t bytes = io.GetComponentSize();
   VoxelType& type = header.volume.type;
   switch (io.GetComponentType()) {
-    case Component::UCHAR: type = VoxelType::kU8; break;
-    case Component::CHAR: type = VoxelType::kI8; break;
-    case Component::USHORT: type = VoxelType::kU16; break;
-    case Component::SHORT: type = VoxelType::kI16; break;
+    case Component::UCHAR:
+      type = VoxelType::kU8;
+      break;
+    case Component::CHAR:
+      type = VoxelType::kI8;
+      break;
+    case Component::USHORT:
+      type = VoxelType::kU16;
+      break;
+    case Component::SHORT:
+      type = VoxelType::kI16;
+      break;
     case Component::UINT:
     case Component::ULONG:
-    case Component::ULONGLONG: type = VoxelType::kU32; break;
+    case Component::ULONGLONG:
+      type = VoxelType::kU32;
+      break;
     case Component::INT:
     case Component::LONG:
-    case Component::LONGLONG: type = VoxelType::kI32; break;
-    case Component::FLOAT: type = VoxelType::kF32; break;
-    case Component::DOUBLE: type = VoxelType::kF64; break;
-    default: fail_type(path, itk::ImageIOBase::GetComponentTypeAsString(io.GetComponentType()));
+    case Component::LONGLONG:
+      type = VoxelType::kI32;
+      break;
+    case Component::FLOAT:
+      type = VoxelType::kF32;
+      break;
+    case Component::DOUBLE:
+      type = VoxelType::kF64;
+      break;
+    default:
+      fail_type(path, itk::ImageIOBase::GetComponentTypeAsString(io.GetComponentType()));
   }
   if (bytes == voxel_bytes(type)) return;
   if (bytes != 8) fail_type(path, fmt::format("of {} bytes", bytes));
@@ -45,12 +62,13 @@ void set_type(const itk::ImageIOBase& io, const std::filesystem::path& path, Vol
 void check_pixel(const itk::ImageIOBase& io, const std::filesystem::path& path) {
   const std::string kind = itk::ImageIOBase::GetPixelTypeAsString(io.GetPixelType());
   if (io.GetPixelType() == itk::IOPixelEnum::COMPLEX) {
-    fail(ErrorCode::kUnsupported, path, "complex voxels; expected one number per voxel; store magnitude or phase first");
+    fail(ErrorCode::kUnsupported, path,
+         "complex voxels; expected one number per voxel; store magnitude or phase first");
   }
   if (io.GetNumberOfComponents() != 1) {
     fail(ErrorCode::kUnsupported, path,
-         fmt::format("{} numbers per voxel ({}); expected one; extract one channel first", io.GetNumberOfComponents(),
-                     kind));
+         fmt::format("{} numbers per voxel ({}); expected one; extract one channel first",
+                     io.GetNumberOfComponents(), kind));
   }
 }
 
@@ -76,7 +94,8 @@ VolumeHeader read_itk_header(itk::ImageIOBase& io, const std::filesystem::path& 
     io.SetFileName(path.string());
     io.ReadImageInformation();
   } catch (const itk::ExceptionObject& error) {
-    fail(ErrorCode::kBadFormat, path, "the header cannot be read: " + library_message(error.GetDescription()));
+    fail(ErrorCode::kBadFormat, path,
+         "the header cannot be read: " + library_message(error.GetDescription()));
   }
   check_pixel(io, path);
   check_dimensions(io, path);
@@ -96,7 +115,8 @@ VolumeHeader read_itk_header(itk::ImageIOBase& io, const std::filesystem::path& 
   return header;
 }
 
-void read_itk_voxels(itk::ImageIOBase& io, const std::filesystem::path& path, void* voxels, std::uint64_t bytes) {
+void read_itk_voxels(itk::ImageIOBase& io, const std::filesystem::path& path, void* voxels,
+                     std::uint64_t bytes) {
   const unsigned dimensions = io.GetNumberOfDimensions();
   itk::ImageIORegion region(dimensions);
   for (unsigned a = 0; a < dimensions; ++a) region.SetSize(a, io.GetDimensions(a));
@@ -107,7 +127,8 @@ void read_itk_voxels(itk::ImageIOBase& io, const std::filesystem::path& path, vo
   try {
     io.Read(voxels);
   } catch (const itk::ExceptionObject& error) {
-    fail(ErrorCode::kBadFormat, path, "the voxels cannot be read: " + library_message(error.GetDescription()));
+    fail(ErrorCode::kBadFormat, path,
+         "the voxels cannot be read: " + library_message(error.GetDescription()));
   }
 }
 

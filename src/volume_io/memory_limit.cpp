@@ -25,7 +25,8 @@ std::uint64_t machine_available_bytes() {
     if (key == "MemAvailable:") return kilobytes * 1024;
     std::getline(file, unit);
   }
-  return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+  return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
+         static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
 }
 
 std::uint64_t number_in(const char* path) {
@@ -49,7 +50,9 @@ std::string size_text(std::uint64_t bytes) {
 
 }  // namespace
 
-std::uint64_t available_memory_bytes() { return std::min(machine_available_bytes(), group_available_bytes()); }
+std::uint64_t available_memory_bytes() {
+  return std::min(machine_available_bytes(), group_available_bytes());
+}
 
 void check_memory(const std::filesystem::path& path, const Volume& volume, std::uint64_t bytes,
                   std::uint64_t limit_bytes) {
@@ -64,7 +67,8 @@ void check_memory(const std::filesystem::path& path, const Volume& volume, std::
 std::shared_ptr<void> allocate_voxels(const std::filesystem::path& path, std::uint64_t bytes) {
   const std::size_t length = bytes;
   void* start = mmap(nullptr, length, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  if (start == MAP_FAILED) fail(ErrorCode::kOutOfMemory, path, fmt::format("cannot allocate {} bytes", length));
+  if (start == MAP_FAILED)
+    fail(ErrorCode::kOutOfMemory, path, fmt::format("cannot allocate {} bytes", length));
   return {start, [length](void* p) { munmap(p, length); }};
 }
 

@@ -48,7 +48,8 @@ class MetaReader : public VolumeReader {
     const std::uint64_t file_bytes = std::filesystem::file_size(data_path_);
     const MetaImage& meta = *io_->GetMetaImagePointer();
     if (meta.HeaderSize() > 0) offset_ = static_cast<std::uint64_t>(meta.HeaderSize());
-    if (meta.HeaderSize() == -1 && file_bytes >= header.stored_bytes()) offset_ = file_bytes - header.stored_bytes();
+    if (meta.HeaderSize() == -1 && file_bytes >= header.stored_bytes())
+      offset_ = file_bytes - header.stored_bytes();
     const std::uint64_t data_bytes = file_bytes - std::min(offset_, file_bytes);
     if (meta.CompressedData()) {
       check_deflated_size(data_path_, data_bytes, header.stored_bytes());
@@ -62,7 +63,8 @@ class MetaReader : public VolumeReader {
   void read_voxels(void* voxels) override {
     const MetaImage& meta = *io_->GetMetaImagePointer();
     if (!meta.BinaryData()) {
-      if (wide_) fail(ErrorCode::kUnsupported, path_, "64-bit integers written as text; write them as binary first");
+      if (wide_)
+        fail(ErrorCode::kUnsupported, path_, "64-bit integers written as text; write them as binary first");
       return read_text(data_path_, offset_, type_, voxels, count_);
     }
     if (meta.CompressedData()) {
@@ -83,7 +85,8 @@ class MetaReader : public VolumeReader {
     }
     if (name.starts_with("LIST") || name.find('%') != std::string::npos) {
       fail(ErrorCode::kUnsupported, path_,
-           fmt::format("ElementDataFile = {}: voxels spread over several files; expected one data file", name));
+           fmt::format("ElementDataFile = {}: voxels spread over several files; expected one data file",
+                       name));
     }
     data_path_ = path_.parent_path() / name;
     if (!std::filesystem::is_regular_file(data_path_)) {

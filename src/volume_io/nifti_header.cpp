@@ -77,7 +77,8 @@ std::vector<unsigned char> read_start(const std::filesystem::path& path, bool de
   if (deflated) {
     read_deflated_start(path, start.data(), bytes);
   } else if (const std::uint64_t found = std::filesystem::file_size(path); found < bytes) {
-    fail(ErrorCode::kBadFormat, path, fmt::format("expected a header of {} bytes, file has {}", bytes, found));
+    fail(ErrorCode::kBadFormat, path,
+         fmt::format("expected a header of {} bytes, file has {}", bytes, found));
   } else {
     read_plain(path, 0, start.data(), bytes);
   }
@@ -124,9 +125,18 @@ Affine qform_affine(const NiftiHeader& header) {
   const double sx = header.pixdim[1];
   const double sy = header.pixdim[2];
   const double sz = header.pixdim[3] * (header.pixdim[0] < 0 ? -1 : 1);
-  return {(a * a + b * b - c * c - d * d) * sx, 2 * (b * c - a * d) * sy, 2 * (b * d + a * c) * sz, x,
-          2 * (b * c + a * d) * sx, (a * a + c * c - b * b - d * d) * sy, 2 * (c * d - a * b) * sz, y,
-          2 * (b * d - a * c) * sx, 2 * (c * d + a * b) * sy, (a * a + d * d - c * c - b * b) * sz, z};
+  return {(a * a + b * b - c * c - d * d) * sx,
+          2 * (b * c - a * d) * sy,
+          2 * (b * d + a * c) * sz,
+          x,
+          2 * (b * c + a * d) * sx,
+          (a * a + c * c - b * b - d * d) * sy,
+          2 * (c * d - a * b) * sz,
+          y,
+          2 * (b * d - a * c) * sx,
+          2 * (c * d + a * b) * sy,
+          (a * a + d * d - c * c - b * b) * sz,
+          z};
 }
 
 bool is_finite(const Affine& m) {
@@ -156,7 +166,8 @@ bool differ(const Affine& m, const Affine& n, const NiftiHeader& header) {
   for (int r = 0; r < 3; ++r) {
     double gap = std::abs(m[4 * r + 3] - n[4 * r + 3]);
     for (int a = 0; a < 3; ++a) {
-      gap += std::abs(m[4 * r + a] - n[4 * r + a]) * static_cast<double>(std::max<std::int64_t>(header.dim[a + 1], 1));
+      gap += std::abs(m[4 * r + a] - n[4 * r + a]) *
+             static_cast<double>(std::max<std::int64_t>(header.dim[a + 1], 1));
       voxel = std::max(voxel, std::abs(m[4 * r + a]));
     }
     most = std::max(most, gap);
@@ -167,7 +178,8 @@ bool differ(const Affine& m, const Affine& n, const NiftiHeader& header) {
 void check_pixdim(const std::filesystem::path& path, const NiftiHeader& header) {
   for (std::size_t a = 1; a <= 3 && static_cast<std::int64_t>(a) <= header.dim[0]; ++a) {
     if (!(std::isfinite(header.pixdim[a]) && header.pixdim[a] > 0)) {
-      fail(ErrorCode::kBadFormat, path, fmt::format("pixdim[{}] is {}; expected a spacing above 0", a, header.pixdim[a]));
+      fail(ErrorCode::kBadFormat, path,
+           fmt::format("pixdim[{}] is {}; expected a spacing above 0", a, header.pixdim[a]));
     }
   }
 }
@@ -177,7 +189,8 @@ Affine choose_affine(const std::filesystem::path& path, NiftiHeader header, Volu
   const Affine qform = qform_affine(header);
   if (header.sform_code > 0 && is_rigid(header.srow)) {
     if (header.qform_code > 0 && is_finite(qform) && differ(header.srow, qform, header)) {
-      volume.warnings.push_back("the NIfTI header's sform and qform disagree about the place of voxels; the sform is used");
+      volume.warnings.push_back(
+          "the NIfTI header's sform and qform disagree about the place of voxels; the sform is used");
     }
     return header.srow;
   }
@@ -189,7 +202,8 @@ Affine choose_affine(const std::filesystem::path& path, NiftiHeader header, Volu
     return qform;
   }
   if (header.sform_code > 0) return header.srow;  // the geometry check says what is wrong with it
-  volume.warnings.push_back("the NIfTI header gives no orientation; axes to the right, front and head are assumed");
+  volume.warnings.push_back(
+      "the NIfTI header gives no orientation; axes to the right, front and head are assumed");
   return {header.pixdim[1], 0, 0, 0, 0, header.pixdim[2], 0, 0, 0, 0, header.pixdim[3], 0};
 }
 
@@ -204,7 +218,8 @@ NiftiHeader read_nifti_header(const std::filesystem::path& path, bool deflated) 
   if (second) bytes = read_start(path, deflated, kBytes2);
   const unsigned char* magic = bytes.data() + (second ? 4 : 344);
   if (std::memcmp(magic, second ? "ni2" : "ni1", 4) == 0) {
-    fail(ErrorCode::kUnsupported, path, "NIfTI header with a separate .img file; expected a single .nii file");
+    fail(ErrorCode::kUnsupported, path,
+         "NIfTI header with a separate .img file; expected a single .nii file");
   }
   if ((header_bytes != kBytes1 && !second) || std::memcmp(magic, second ? "n+2" : "n+1", 4) != 0) {
     fail(ErrorCode::kBadFormat, path, "not a NIfTI file; expected a 348-byte header ending in \"n+1\"");

@@ -27,9 +27,9 @@ struct NiftiHeader {
 /// dimensions are possible, kUnsupported for a header with a separate .img file.
 NiftiHeader read_nifti_header(const std::filesystem::path& path, bool deflated);
 
-/// Sets spacing, origin and direction (LPS, mm): from the sform where there is one that is not sheared, else from
-/// the qform, else axes along right, anterior, superior. Warns when the two disagree or neither is there.
-/// Throws Error kBadFormat for a spacing that is needed and not above 0.
+/// Sets spacing, origin and direction (LPS, mm): from the sform where there is one that is not sheared, else
+/// from the qform, else axes along right, anterior, superior. Warns when the two disagree or neither is
+/// there. Throws Error kBadFormat for a spacing that is needed and not above 0.
 void place_nifti(const std::filesystem::path& path, const NiftiHeader& header, Volume& volume);
 
 }  // namespace voxlume

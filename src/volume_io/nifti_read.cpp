@@ -21,23 +21,28 @@ struct Datatype {
 };
 
 constexpr Datatype kDatatypes[] = {
-    {2, VoxelType::kU8, WideInteger::kNone},     {4, VoxelType::kI16, WideInteger::kNone},
-    {8, VoxelType::kI32, WideInteger::kNone},    {16, VoxelType::kF32, WideInteger::kNone},
-    {64, VoxelType::kF64, WideInteger::kNone},   {256, VoxelType::kI8, WideInteger::kNone},
-    {512, VoxelType::kU16, WideInteger::kNone},  {768, VoxelType::kU32, WideInteger::kNone},
-    {1024, VoxelType::kI32, WideInteger::kI64},  {1280, VoxelType::kI32, WideInteger::kU64},
+    {2, VoxelType::kU8, WideInteger::kNone},    {4, VoxelType::kI16, WideInteger::kNone},
+    {8, VoxelType::kI32, WideInteger::kNone},   {16, VoxelType::kF32, WideInteger::kNone},
+    {64, VoxelType::kF64, WideInteger::kNone},  {256, VoxelType::kI8, WideInteger::kNone},
+    {512, VoxelType::kU16, WideInteger::kNone}, {768, VoxelType::kU32, WideInteger::kNone},
+    {1024, VoxelType::kI32, WideInteger::kI64}, {1280, VoxelType::kI32, WideInteger::kU64},
 };
 
 const char* unsupported_name(int code) {
   switch (code) {
-    case 1: return "single bits";
+    case 1:
+      return "single bits";
     case 128:
-    case 2304: return "RGB colours";
+    case 2304:
+      return "RGB colours";
     case 32:
     case 1792:
-    case 2048: return "complex numbers";
-    case 1536: return "128-bit floating point";
-    default: return "an unknown type";
+    case 2048:
+      return "complex numbers";
+    case 1536:
+      return "128-bit floating point";
+    default:
+      return "an unknown type";
   }
 }
 
@@ -60,7 +65,8 @@ class NiftiReader : public VolumeReader {
     VolumeHeader header;
     Volume& volume = header.volume;
     volume.format = format_name(FileFormat::kNifti);
-    for (std::size_t a = 0; a < 3; ++a) volume.size[a] = static_cast<std::int64_t>(a) < nifti_.dim[0] ? nifti_.dim[a + 1] : 1;
+    for (std::size_t a = 0; a < 3; ++a)
+      volume.size[a] = static_cast<std::int64_t>(a) < nifti_.dim[0] ? nifti_.dim[a + 1] : 1;
     place_nifti(path_, nifti_, volume);
     choose_type(header);
     count_ = volume.voxel_count();
@@ -87,13 +93,15 @@ class NiftiReader : public VolumeReader {
   /// The file's own type or, when its values are scaled, f32 (f64 for f64).
   void choose_type(VolumeHeader& header) {
     const Datatype& datatype = find_datatype(path_, nifti_.datatype);
-    const bool has_slope = std::isfinite(nifti_.slope) && nifti_.slope != 0 && std::isfinite(nifti_.intercept);
+    const bool has_slope =
+        std::isfinite(nifti_.slope) && nifti_.slope != 0 && std::isfinite(nifti_.intercept);
     scaled_ = has_slope && (nifti_.slope != 1 || nifti_.intercept != 0);
     header.wide = datatype.wide;
     stored_type_ = type_ = datatype.type;
     stored_bytes_ = voxel_bytes(stored_type_);
     if (header.wide != WideInteger::kNone) {
-      if (scaled_) fail(ErrorCode::kUnsupported, path_, "scaled 64-bit integers; convert to floating point first");
+      if (scaled_)
+        fail(ErrorCode::kUnsupported, path_, "scaled 64-bit integers; convert to floating point first");
       stored_bytes_ = 8;
       header.volume.warnings.push_back(kNarrowedWarning);
     }
@@ -108,7 +116,8 @@ class NiftiReader : public VolumeReader {
     const double expected = static_cast<double>(stored_bytes_) * static_cast<double>(nifti_.dim[1]) *
                             (nifti_.dim[0] > 1 ? static_cast<double>(nifti_.dim[2]) : 1) *
                             (nifti_.dim[0] > 2 ? static_cast<double>(nifti_.dim[3]) : 1);
-    if (expected > 0x1p60) fail(ErrorCode::kBadFormat, path_, "the header promises more voxels than can exist");
+    if (expected > 0x1p60)
+      fail(ErrorCode::kBadFormat, path_, "the header promises more voxels than can exist");
     const std::uint64_t data_bytes = file_bytes - std::min(offset, file_bytes);
     if (deflated_) return check_deflated_size(path_, file_bytes, count_ * stored_bytes_);
     if (data_bytes < count_ * stored_bytes_) {

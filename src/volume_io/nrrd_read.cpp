@@ -49,9 +49,12 @@ class NrrdReader : public VolumeReader {
     std::istringstream words(fields_.value("sizes"));
     std::string word;
     for (unsigned a = 0; words >> word; ++a) {
-      const bool is_number = std::all_of(word.begin(), word.end(), [](char c) { return c >= '0' && c <= '9'; });
-      if (!is_number || (a < io_->GetNumberOfDimensions() && word != fmt::format("{}", io_->GetDimensions(a)))) {
-        fail(ErrorCode::kBadFormat, path_, fmt::format("sizes: {}; expected whole numbers", fields_.value("sizes")));
+      const bool is_number =
+          std::all_of(word.begin(), word.end(), [](char c) { return c >= '0' && c <= '9'; });
+      if (!is_number ||
+          (a < io_->GetNumberOfDimensions() && word != fmt::format("{}", io_->GetDimensions(a)))) {
+        fail(ErrorCode::kBadFormat, path_,
+             fmt::format("sizes: {}; expected whole numbers", fields_.value("sizes")));
       }
     }
   }
@@ -60,7 +63,8 @@ class NrrdReader : public VolumeReader {
     const std::string encoding = fields_.value("encoding");
     const std::string data = fields_.value("datafile");
     return (encoding == "gzip" || encoding == "gz") && fields_.value("lineskip").empty() &&
-           fields_.value("byteskip").empty() && !data.starts_with("LIST") && data.find_first_of("% ") == std::string::npos;
+           fields_.value("byteskip").empty() && !data.starts_with("LIST") &&
+           data.find_first_of("% ") == std::string::npos;
   }
 
   std::filesystem::path path_;

@@ -45,7 +45,8 @@ void turn_from_las(const std::filesystem::path& path, const NrrdFields& fields, 
   const auto axes = parse_vectors(fields.value("spacedirections"));
   const auto origin = parse_vectors(fields.value("spaceorigin"));
   if (!axes || axes->size() != 3 || !origin || origin->size() > 1) {
-    fail(ErrorCode::kUnsupported, path, "left-anterior-superior space without three axis vectors and an origin");
+    fail(ErrorCode::kUnsupported, path,
+         "left-anterior-superior space without three axis vectors and an origin");
   }
   std::array<double, 9> mm_per_voxel{};
   for (int a = 0; a < 3; ++a) {
@@ -59,8 +60,9 @@ void turn_from_las(const std::filesystem::path& path, const NrrdFields& fields, 
 
 /// Millimetres of the unit in which lengths are given, when all axes name the same one.
 std::optional<double> unit_mm(const std::string& units) {
-  const std::map<std::string, double> kUnits = {{"mm", 1},    {"cm", 10},   {"m", 1000}, {"um", 1e-3},
-                                                {"\xc2\xb5m", 1e-3}, {"\xce\xbcm", 1e-3}, {"microns", 1e-3}, {"nm", 1e-6}};
+  const std::map<std::string, double> kUnits = {{"mm", 1},         {"cm", 10},          {"m", 1000},
+                                                {"um", 1e-3},      {"\xc2\xb5m", 1e-3}, {"\xce\xbcm", 1e-3},
+                                                {"microns", 1e-3}, {"nm", 1e-6}};
   std::optional<double> mm;
   std::size_t at = 0;
   while ((at = units.find('"', at)) != std::string::npos) {
@@ -83,9 +85,9 @@ void complete_nrrd_space(const std::filesystem::path& path, const NrrdFields& fi
                              space == "left-posterior-superior" || space == "LPS";
   if (is_las) turn_from_las(path, fields, volume);
   if (!space.empty() && !is_anatomical) {
-    volume.warnings.push_back(
-        fmt::format("the NRRD space \"{}\" has no patient directions; it is taken for left-posterior-superior",
-                    one_line(space.substr(0, 40))));
+    volume.warnings.push_back(fmt::format(
+        "the NRRD space \"{}\" has no patient directions; it is taken for left-posterior-superior",
+        one_line(space.substr(0, 40))));
   }
   const std::string space_units = fields.value("spaceunits");
   const double mm = unit_mm(space_units.empty() ? fields.value("units") : space_units).value_or(1);

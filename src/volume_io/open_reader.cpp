@@ -8,8 +8,8 @@
 #include "volume_io/fail.h"
 #include "volume_io/file_format.h"
 #include "volume_io/itk_read.h"
-#include "volume_io/nifti_read.h"
 #include "volume_io/natural_order.h"
+#include "volume_io/nifti_read.h"
 #include "volume_io/staged_read.h"
 #include "volume_io/tiff_read.h"
 #include "volume_io/vdb_read.h"
@@ -23,7 +23,8 @@ std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder)
   std::vector<std::filesystem::path> files;
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    if (entry.is_regular_file(error) && !entry.path().filename().string().starts_with(".")) files.push_back(entry.path());
+    if (entry.is_regular_file(error) && !entry.path().filename().string().starts_with("."))
+      files.push_back(entry.path());
   }
   if (error) fail(ErrorCode::kFileNotFound, folder, "cannot list this folder: " + error.message());
   std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) {
@@ -42,7 +43,8 @@ std::unique_ptr<VolumeReader> open_folder(const std::filesystem::path& folder) {
     if (!format || format == FileFormat::kDicom) others.push_back(file);
   }
   if (tiffs.empty() && others.empty()) {
-    fail(ErrorCode::kBadFormat, folder, "no DICOM or TIFF files in this folder; expected a DICOM series or TIFF slices");
+    fail(ErrorCode::kBadFormat, folder,
+         "no DICOM or TIFF files in this folder; expected a DICOM series or TIFF slices");
   }
   if (others.empty()) return make_tiff_reader(tiffs);
   return tiffs.empty() || has_dicom(others) ? make_dicom_reader(folder, others) : make_tiff_reader(tiffs);
@@ -70,14 +72,22 @@ std::unique_ptr<VolumeReader> open_reader(const std::filesystem::path& path) {
     fail(ErrorCode::kBadFormat, path, "neither a file nor a folder; expected a volume file");
   }
   switch (format_of_file(path)) {
-    case FileFormat::kMetaImage: return make_meta_reader(path);
-    case FileFormat::kNifti: return make_nifti_reader(path);
-    case FileFormat::kVtk: return make_vtk_reader(path);
-    case FileFormat::kTiff: return make_tiff_reader({path});
-    case FileFormat::kVdb: return make_vdb_reader(path);
-    case FileFormat::kDicom: return make_dicom_reader(path, {path});
-    case FileFormat::kHdf5: return make_hdf5_reader(path);
-    default: return make_nrrd_reader(path);
+    case FileFormat::kMetaImage:
+      return make_meta_reader(path);
+    case FileFormat::kNifti:
+      return make_nifti_reader(path);
+    case FileFormat::kVtk:
+      return make_vtk_reader(path);
+    case FileFormat::kTiff:
+      return make_tiff_reader({path});
+    case FileFormat::kVdb:
+      return make_vdb_reader(path);
+    case FileFormat::kDicom:
+      return make_dicom_reader(path, {path});
+    case FileFormat::kHdf5:
+      return make_hdf5_reader(path);
+    default:
+      return make_nrrd_reader(path);
   }
 }
 

@@ -36,7 +36,8 @@ void check_spec(const std::filesystem::path& path, const RawSpec& spec) {
   }
 }
 
-std::shared_ptr<const void> map_file(const std::filesystem::path& path, std::uint64_t offset, std::uint64_t bytes) {
+std::shared_ptr<const void> map_file(const std::filesystem::path& path, std::uint64_t offset,
+                                     std::uint64_t bytes) {
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) fail(ErrorCode::kFileNotFound, path, "cannot open this file for reading");
   const std::size_t length = offset + bytes;
@@ -56,7 +57,8 @@ Volume read_raw(const std::filesystem::path& path, const RawSpec& spec, std::uin
   volume.type = spec.type;
   volume.spacing_mm = spec.spacing_mm;
   volume.format = "raw";
-  if (!std::filesystem::is_regular_file(path)) fail(ErrorCode::kBadFormat, path, "not a file; --raw reads one file");
+  if (!std::filesystem::is_regular_file(path))
+    fail(ErrorCode::kBadFormat, path, "not a file; --raw reads one file");
   const std::uint64_t bytes = volume.byte_count();
   const std::uint64_t file_bytes = std::filesystem::file_size(path);
   const std::uint64_t expected = spec.offset_bytes + bytes;
@@ -66,9 +68,10 @@ Volume read_raw(const std::filesystem::path& path, const RawSpec& spec, std::uin
                      fmt::join(spec.size, "x"), voxel_type_name(spec.type), spec.offset_bytes, file_bytes));
   }
   if (file_bytes > expected) {
-    volume.warnings.push_back(fmt::format("the file has {} bytes more than the raw size and offset use; the type or "
-                                          "size given may be wrong",
-                                          file_bytes - expected));
+    volume.warnings.push_back(
+        fmt::format("the file has {} bytes more than the raw size and offset use; the type or "
+                    "size given may be wrong",
+                    file_bytes - expected));
   }
   const bool aligned = spec.offset_bytes % voxel_bytes(spec.type) == 0;
   const bool swapped = spec.big_endian && voxel_bytes(spec.type) > 1;

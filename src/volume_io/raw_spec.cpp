@@ -15,7 +15,8 @@ constexpr std::string_view kForm = "WxHxD,type,sx,sy,sz[,little|big][,offset]";
 
 [[noreturn]] void fail_field(std::string_view field, std::string_view found, std::string_view expected) {
   fail(ErrorCode::kBadParameter, "",
-       fmt::format("raw {} \"{}\"; expected {} (the form is {})", field, found.substr(0, 60), expected, kForm));
+       fmt::format("raw {} \"{}\"; expected {} (the form is {})", field, found.substr(0, 60), expected,
+                   kForm));
 }
 
 std::vector<std::string_view> split(std::string_view text, char separator) {
@@ -40,7 +41,8 @@ std::array<std::int64_t, 3> parse_size(std::string_view text) {
   if (parts.size() != 3) fail_field("size", text, "three numbers like 256x256x108");
   double voxels = 1;
   for (int a = 0; a < 3; ++a) {
-    if (!parse_number(parts[a], size[a]) || size[a] < 1) fail_field("size", text, "three whole numbers above 0");
+    if (!parse_number(parts[a], size[a]) || size[a] < 1)
+      fail_field("size", text, "three whole numbers above 0");
     voxels *= static_cast<double>(size[a]);
   }
   if (voxels > 0x1p56) fail_field("size", text, "a volume that can exist");
@@ -52,7 +54,8 @@ std::array<std::int64_t, 3> parse_size(std::string_view text) {
 RawSpec parse_raw_spec(std::string_view text) {
   const std::vector<std::string_view> fields = split(text, ',');
   RawSpec spec;
-  if (fields.size() < 5 || fields.size() > 7) fail_field("specification", text, "5 to 7 fields with commas between");
+  if (fields.size() < 5 || fields.size() > 7)
+    fail_field("specification", text, "5 to 7 fields with commas between");
   spec.size = parse_size(fields[0]);
   try {
     spec.type = parse_voxel_type(fields[1]);
@@ -71,7 +74,8 @@ RawSpec parse_raw_spec(std::string_view text) {
     if (!has_endian && !has_offset && (fields[i] == "little" || fields[i] == "big")) {
       has_endian = true;
       spec.big_endian = fields[i] == "big";
-    } else if (!has_offset && parse_number(fields[i], spec.offset_bytes) && spec.offset_bytes < (1ull << 60)) {
+    } else if (!has_offset && parse_number(fields[i], spec.offset_bytes) &&
+               spec.offset_bytes < (1ull << 60)) {
       has_offset = true;
     } else {
       fail_field(i == 5 ? "byte order or offset" : "offset", fields[i],

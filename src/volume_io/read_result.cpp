@@ -7,7 +7,9 @@ namespace {
 
 using nlohmann::json;
 
-std::string one_json_line(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
+std::string one_json_line(const json& value) {
+  return value.dump(-1, ' ', false, json::error_handler_t::replace);
+}
 
 }  // namespace
 
@@ -31,7 +33,8 @@ Volume decode_result(const std::string& line) {
   try {
     const json value = json::parse(line);
     if (value.contains("error")) {
-      throw Error(static_cast<ErrorCode>(value.at("error").get<int>()), value.at("where"), value.at("message"));
+      throw Error(static_cast<ErrorCode>(value.at("error").get<int>()), value.at("where"),
+                  value.at("message"));
     }
     Volume volume;
     volume.size = value.at("size");

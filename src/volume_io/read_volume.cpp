@@ -12,12 +12,14 @@ namespace voxlume {
 Volume read_volume(const std::filesystem::path& path, const ReadOptions& options) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) {
-    fail(ErrorCode::kFileNotFound, path, error ? "cannot be reached: " + error.message() : "no such file or folder");
+    fail(ErrorCode::kFileNotFound, path,
+         error ? "cannot be reached: " + error.message() : "no such file or folder");
   }
   if (options.spacing_mm) {
     for (const double s : *options.spacing_mm) {
       if (!(std::isfinite(s) && s > 0)) {
-        fail(ErrorCode::kBadParameter, path, fmt::format("spacing {}; expected finite numbers above 0 (mm)", s));
+        fail(ErrorCode::kBadParameter, path,
+             fmt::format("spacing {}; expected finite numbers above 0 (mm)", s));
       }
     }
   }

@@ -29,13 +29,14 @@ void drop_repeated(std::vector<std::size_t>& order, const std::vector<double>& d
   const auto repeats = [&](std::size_t a, std::size_t b) { return depth[b] - depth[a] <= same; };
   order.erase(std::unique(order.begin(), order.end(), repeats), order.end());
   if (order.size() == before) return;
-  result.warnings.push_back(fmt::format(
-      "repeated positions: {} of {} slices lie where another does (time steps, or copies); the first of each is kept",
-      before - order.size(), before));
+  result.warnings.push_back(
+      fmt::format("repeated positions: {} of {} slices lie where another does (time steps, or copies); the "
+                  "first of each is kept",
+                  before - order.size(), before));
 }
 
-void warn_about_tilt(const std::vector<std::size_t>& order, const std::vector<Vec>& positions, const Vec& normal,
-                     SliceOrder& result) {
+void warn_about_tilt(const std::vector<std::size_t>& order, const std::vector<Vec>& positions,
+                     const Vec& normal, SliceOrder& result) {
   constexpr double kMinTiltDegrees = 0.3;
   const Vec& first = positions[order.front()];
   const Vec& last = positions[order.back()];
@@ -44,13 +45,15 @@ void warn_about_tilt(const std::vector<std::size_t>& order, const std::vector<Ve
   const double across = std::sqrt(std::max(0.0, dot(step, step) - along * along));
   const double degrees = std::atan2(across, along) * 180 / std::numbers::pi;
   if (degrees < kMinTiltDegrees) return;
-  result.warnings.push_back(fmt::format(
-      "gantry tilt: the slices are sheared by {:.1f} degrees; they are stacked straight, so the shape is distorted",
-      degrees));
+  result.warnings.push_back(
+      fmt::format("gantry tilt: the slices are sheared by {:.1f} degrees; they are stacked straight, so the "
+                  "shape is distorted",
+                  degrees));
 }
 
 /// Fills result.slots and result.step_mm from distinct depths in order.
-void place_slots(const std::vector<std::size_t>& order, const std::vector<double>& depth, SliceOrder& result) {
+void place_slots(const std::vector<std::size_t>& order, const std::vector<double>& depth,
+                 SliceOrder& result) {
   constexpr double kMultipleTolerance = 0.1;  // of a step
   constexpr double kEvenTolerance = 0.02;
   std::vector<double> steps;
@@ -80,16 +83,19 @@ void place_slots(const std::vector<std::size_t>& order, const std::vector<double
     missing = 0;
     uneven = true;
   }
-  result.step_mm = (depth[order.back()] - depth[order.front()]) / static_cast<double>(result.slots.size() - 1);
+  result.step_mm =
+      (depth[order.back()] - depth[order.front()]) / static_cast<double>(result.slots.size() - 1);
   if (missing > 0) {
-    result.warnings.push_back(fmt::format("missing slices: {} in {} gap(s), the first of {:.4g} mm after slice {} where "
-                                          "{:.4g} mm is usual; they are filled by interpolation",
-                                          missing, gaps, steps[first_gap], first_gap + 1, usual));
+    result.warnings.push_back(
+        fmt::format("missing slices: {} in {} gap(s), the first of {:.4g} mm after slice {} where "
+                    "{:.4g} mm is usual; they are filled by interpolation",
+                    missing, gaps, steps[first_gap], first_gap + 1, usual));
   }
   if (uneven) {
-    result.warnings.push_back(fmt::format("uneven slice spacing: steps of {:.4g} to {:.4g} mm; the slices are stacked "
-                                          "evenly at {:.4g} mm, so the shape is distorted",
-                                          *shortest, *longest, result.step_mm));
+    result.warnings.push_back(
+        fmt::format("uneven slice spacing: steps of {:.4g} to {:.4g} mm; the slices are stacked "
+                    "evenly at {:.4g} mm, so the shape is distorted",
+                    *shortest, *longest, result.step_mm));
   }
 }
 
@@ -101,7 +107,8 @@ SliceOrder order_slices(const std::vector<Vec>& positions_mm, const Vec& normal)
   for (const Vec& p : positions_mm) depth.push_back(dot(p, normal));
   std::vector<std::size_t> order(positions_mm.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return depth[a] < depth[b]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return depth[a] < depth[b]; });
   if (order.empty()) return result;
   drop_repeated(order, depth, result);
   if (order.size() == 1) {

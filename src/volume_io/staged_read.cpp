@@ -8,13 +8,14 @@
 #include "volume_io/fail.h"
 #include "volume_io/geometry_check.h"
 #include "volume_io/memory_limit.h"
-#include "volume_io/voxel_convert.h"
 #include "volume_io/volume_reader.h"
+#include "volume_io/voxel_convert.h"
 
 namespace voxlume {
 namespace {
 
-Volume read_steps(const std::filesystem::path& path, const ReadOptions& options, const AllocateVoxels& allocate) {
+Volume read_steps(const std::filesystem::path& path, const ReadOptions& options,
+                  const AllocateVoxels& allocate) {
   const std::unique_ptr<VolumeReader> reader = open_reader(path);
   VolumeHeader header = reader->read_header();
   Volume& volume = header.volume;
@@ -32,19 +33,22 @@ Volume read_steps(const std::filesystem::path& path, const ReadOptions& options,
 
 }  // namespace
 
-Volume read_staged(const std::filesystem::path& path, const ReadOptions& options, const AllocateVoxels& allocate) {
+Volume read_staged(const std::filesystem::path& path, const ReadOptions& options,
+                   const AllocateVoxels& allocate) {
   try {
     return read_steps(path, options, allocate);
   } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {
     fail(ErrorCode::kBadFormat, path,
-         fmt::format("the reader of {} needed more memory than the file should take (damaged?)", reader_name(path)));
+         fmt::format("the reader of {} needed more memory than the file should take (damaged?)",
+                     reader_name(path)));
   } catch (const std::exception& error) {
     fail(ErrorCode::kBadFormat, path,
          fmt::format("the reader of {} failed: {}", reader_name(path), library_message(error.what())));
   } catch (...) {
-    fail(ErrorCode::kBadFormat, path, fmt::format("the reader of {} failed on this file (damaged?)", reader_name(path)));
+    fail(ErrorCode::kBadFormat, path,
+         fmt::format("the reader of {} failed on this file (damaged?)", reader_name(path)));
   }
 }
 

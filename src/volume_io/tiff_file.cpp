@@ -22,11 +22,12 @@ void keep_message(const char*, const char* format, std::va_list arguments) {
 }
 
 [[noreturn]] void fail_type(const std::filesystem::path& path, int bits, int sample_format) {
-  const char* kind = sample_format == SAMPLEFORMAT_IEEEFP ? "floating point"
+  const char* kind = sample_format == SAMPLEFORMAT_IEEEFP       ? "floating point"
                      : sample_format >= SAMPLEFORMAT_COMPLEXINT ? "complex"
                                                                 : "integer";
   fail(ErrorCode::kUnsupported, path,
-       fmt::format("{}-bit {} pixels; expected 8, 16 or 32-bit integers or 32 or 64-bit floating point", bits, kind));
+       fmt::format("{}-bit {} pixels; expected 8, 16 or 32-bit integers or 32 or 64-bit floating point", bits,
+                   kind));
 }
 
 VoxelType pixel_type(const std::filesystem::path& path, int bits, int sample_format) {
@@ -53,18 +54,21 @@ void read_tiles(TIFF* tiff, const std::filesystem::path& path, const TiffPage& p
   TIFFGetField(tiff, TIFFTAG_TILELENGTH, &tile_height);
   const std::size_t pixel = voxel_bytes(page.type);
   const tmsize_t tile_bytes = TIFFTileSize(tiff);
-  if (tile_bytes <= 0 || static_cast<std::uint64_t>(tile_bytes) != std::uint64_t{tile_width} * tile_height * pixel) {
+  if (tile_bytes <= 0 ||
+      static_cast<std::uint64_t>(tile_bytes) != std::uint64_t{tile_width} * tile_height * pixel) {
     fail_data(path);
   }
   std::vector<unsigned char> tile(static_cast<std::size_t>(tile_bytes));
   for (std::uint64_t y = 0; y < page.height; y += tile_height) {
     for (std::uint64_t x = 0; x < page.width; x += tile_width) {
-      const ttile_t index = TIFFComputeTile(tiff, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), 0, 0);
+      const ttile_t index =
+          TIFFComputeTile(tiff, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), 0, 0);
       if (TIFFReadEncodedTile(tiff, index, tile.data(), tile_bytes) != tile_bytes) fail_data(path);
       const std::size_t columns = std::min<std::uint64_t>(tile_width, page.width - x);
       const std::size_t rows = std::min<std::uint64_t>(tile_height, page.height - y);
       for (std::size_t r = 0; r < rows; ++r) {
-        std::memcpy(out + ((y + r) * page.width + x) * pixel, tile.data() + r * tile_width * pixel, columns * pixel);
+        std::memcpy(out + ((y + r) * page.width + x) * pixel, tile.data() + r * tile_width * pixel,
+                    columns * pixel);
       }
     }
   }
@@ -117,7 +121,8 @@ void read_tiff_page(TIFF* tiff, const std::filesystem::path& path, const TiffPag
   for (std::uint64_t row = 0, strip = 0; row < page.height; row += rows_per_strip, ++strip) {
     const auto bytes =
         static_cast<tmsize_t>(row_bytes * std::min<std::uint64_t>(rows_per_strip, page.height - row));
-    if (TIFFReadEncodedStrip(tiff, static_cast<std::uint32_t>(strip), out + row * row_bytes, bytes) != bytes) {
+    if (TIFFReadEncodedStrip(tiff, static_cast<std::uint32_t>(strip), out + row * row_bytes, bytes) !=
+        bytes) {
       fail_data(path);
     }
   }

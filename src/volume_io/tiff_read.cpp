@@ -17,7 +17,8 @@ bool is_thumbnail(TIFF* tiff) {
 void warn_about_colours(TIFF* tiff, Volume& volume) {
   std::uint16_t photometric = PHOTOMETRIC_MINISBLACK;
   TIFFGetField(tiff, TIFFTAG_PHOTOMETRIC, &photometric);
-  if (photometric == PHOTOMETRIC_PALETTE) volume.warnings.push_back("the TIFF has a colour palette; its indices are read");
+  if (photometric == PHOTOMETRIC_PALETTE)
+    volume.warnings.push_back("the TIFF has a colour palette; its indices are read");
   if (photometric == PHOTOMETRIC_MINISWHITE) {
     volume.warnings.push_back("the TIFF shows low values as white; the values are read as they are");
   }
@@ -90,12 +91,14 @@ class TiffReader : public VolumeReader {
     std::int64_t pages = 0;
     do {
       if (is_thumbnail(tiff) && pages > 0) continue;
-      if (is_thumbnail(tiff)) fail(ErrorCode::kUnsupported, files_[0], "the first page is a thumbnail; expected a slice");
+      if (is_thumbnail(tiff))
+        fail(ErrorCode::kUnsupported, files_[0], "the first page is a thumbnail; expected a slice");
       check_page(tiff, files_[0], pages);
       ++pages;
     } while (TIFFReadDirectory(tiff));
     if (!tiff_message().empty()) {
-      fail(ErrorCode::kBadFormat, files_[0], fmt::format("the page after page {} is damaged{}", pages, tiff_message()));
+      fail(ErrorCode::kBadFormat, files_[0],
+           fmt::format("the page after page {} is damaged{}", pages, tiff_message()));
     }
     return pages;
   }
@@ -105,7 +108,8 @@ class TiffReader : public VolumeReader {
       const TiffFile tiff = open_tiff(files_[i]);
       check_page(tiff.get(), files_[i], static_cast<std::int64_t>(i));
       if (TIFFReadDirectory(tiff.get()) && !is_thumbnail(tiff.get())) {
-        fail(ErrorCode::kUnsupported, files_[i], "a folder of TIFF files with several pages each; expected one page each");
+        fail(ErrorCode::kUnsupported, files_[i],
+             "a folder of TIFF files with several pages each; expected one page each");
       }
     }
   }
@@ -118,7 +122,8 @@ class TiffReader : public VolumeReader {
     std::uint64_t* offsets = nullptr;
     const bool has_offsets = TIFFGetField(tiff.get(), TIFFTAG_STRIPOFFSETS, &offsets) && offsets;
     if (compression != COMPRESSION_NONE || !has_offsets) {
-      fail(ErrorCode::kBadFormat, files_[0], fmt::format("the description promises {} slices, the file has 1", slices));
+      fail(ErrorCode::kBadFormat, files_[0],
+           fmt::format("the description promises {} slices, the file has 1", slices));
     }
     offset_ = offsets[0];
     swapped_ = TIFFIsByteSwapped(tiff.get()) != 0;
@@ -127,8 +132,8 @@ class TiffReader : public VolumeReader {
     const std::uint64_t found = file_bytes - std::min(offset_, file_bytes);
     if (found / page_.bytes() < static_cast<std::uint64_t>(slices)) {
       fail(ErrorCode::kBadFormat, files_[0],
-           fmt::format("the description promises {} slices of {} bytes, the file has {} bytes of pixels", slices,
-                       page_.bytes(), found));
+           fmt::format("the description promises {} slices of {} bytes, the file has {} bytes of pixels",
+                       slices, page_.bytes(), found));
     }
     return slices;
   }

@@ -56,7 +56,8 @@ void read_ome(std::string_view text, TiffStackInfo& info) {
     complete = complete && size && mm;
     info.spacing_mm[a] = size && mm ? *size * *mm : (a > 0 ? info.spacing_mm[0] : 1);
   }
-  if (!complete) info.warning = "the OME description does not give every pixel size; the missing ones are assumed";
+  if (!complete)
+    info.warning = "the OME description does not give every pixel size; the missing ones are assumed";
 }
 
 /// Pixels per resolution unit along x and y; none when the tags are absent or senseless.
@@ -108,8 +109,9 @@ TiffStackInfo tiff_stack_info(TIFF* tiff) {
   }
   const double mm = unit == RESUNIT_CENTIMETER ? 10 : 25.4;
   info.spacing_mm = {mm / (*per_unit)[0], mm / (*per_unit)[1], mm / (*per_unit)[0]};
-  info.warning = fmt::format("the TIFF gives no slice spacing; it is assumed to equal the pixel spacing, {:.4g} mm",
-                             info.spacing_mm[0]);
+  info.warning =
+      fmt::format("the TIFF gives no slice spacing; it is assumed to equal the pixel spacing, {:.4g} mm",
+                  info.spacing_mm[0]);
   return info;
 }
 

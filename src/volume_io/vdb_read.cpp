@@ -22,7 +22,8 @@ using openvdb::FloatGrid;
 std::string grid_names(const openvdb::GridPtrVec& grids) {
   std::string names;
   for (const openvdb::GridBase::Ptr& grid : grids) {
-    names += fmt::format("{}\"{}\" ({})", names.empty() ? "" : ", ", one_line(grid->getName()), grid->valueType());
+    names +=
+        fmt::format("{}\"{}\" ({})", names.empty() ? "" : ", ", one_line(grid->getName()), grid->valueType());
   }
   return names;
 }

@@ -14,9 +14,9 @@ inline constexpr const char* kNarrowedWarning = "64-bit integers were narrowed t
 
 /// What a file says of itself before any voxel is read.
 struct VolumeHeader {
-  Volume volume;                            ///< voxels is null; type is kI32 for wide integers
+  Volume volume;  ///< voxels is null; type is kI32 for wide integers
   WideInteger wide = WideInteger::kNone;
-  std::uint64_t working_bytes = 0;          ///< what read_voxels allocates besides the voxels, at most
+  std::uint64_t working_bytes = 0;  ///< what read_voxels allocates besides the voxels, at most
 
   /// Bytes read_voxels writes; more than volume.byte_count() for wide integers.
   std::uint64_t stored_bytes() const {

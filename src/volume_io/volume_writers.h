@@ -6,8 +6,8 @@
 
 namespace voxlume {
 
-// Each writes one format to `path`, which does not exist yet and is moved into place by write_volume. They throw
-// Error kUnsupported for a type or orientation the format lacks, kInternal when writing fails.
+// Each writes one format to `path`, which does not exist yet and is moved into place by write_volume. They
+// throw Error kUnsupported for a type or orientation the format lacks, kInternal when writing fails.
 
 /// NRRD, MetaImage, NIfTI, legacy VTK and HDF5. Detached headers (.nhdr, .mhd) get their data beside them.
 /// NRRD and .nii.gz are compressed. Legacy VTK carries no direction: only identity is written.

@@ -32,7 +32,8 @@ T rounded(double value) {
     return static_cast<T>(value);
   } else {
     if (std::isnan(value)) return T{0};
-    return static_cast<T>(std::clamp(std::nearbyint(value), static_cast<double>(std::numeric_limits<T>::lowest()),
+    return static_cast<T>(std::clamp(std::nearbyint(value),
+                                     static_cast<double>(std::numeric_limits<T>::lowest()),
                                      static_cast<double>(std::numeric_limits<T>::max())));
   }
 }
@@ -43,9 +44,10 @@ void narrow(const std::filesystem::path& path, void* voxels, std::uint64_t count
     const Wide value = load<Wide>(voxels, i);
     if (!std::in_range<std::int32_t>(value)) {
       fail(ErrorCode::kUnsupported, path,
-           fmt::format("64-bit integers beyond the 32-bit range (voxel {} is {}); convert to 32-bit integers or "
-                       "floating point first",
-                       i, value));
+           fmt::format(
+               "64-bit integers beyond the 32-bit range (voxel {} is {}); convert to 32-bit integers or "
+               "floating point first",
+               i, value));
     }
     store(voxels, i, static_cast<std::int32_t>(value));
   }
@@ -66,7 +68,8 @@ void rescale_voxels(const void* in, VoxelType in_type, void* out, VoxelType out_
   });
 }
 
-void narrow_wide_integers(const std::filesystem::path& path, WideInteger from, void* voxels, std::uint64_t count) {
+void narrow_wide_integers(const std::filesystem::path& path, WideInteger from, void* voxels,
+                          std::uint64_t count) {
   if (from == WideInteger::kI64) narrow<std::int64_t>(path, voxels, count);
   if (from == WideInteger::kU64) narrow<std::uint64_t>(path, voxels, count);
 }

@@ -39,7 +39,8 @@ class Inflater {
   std::uint64_t read(std::ifstream& file, unsigned char* to, std::uint64_t bytes) {
     std::uint64_t done = 0;
     while (done < bytes && !ended_) {
-      if (stream_.avail_in == 0 && !refill(file)) fail(ErrorCode::kBadFormat, path_, "compressed data is cut short");
+      if (stream_.avail_in == 0 && !refill(file))
+        fail(ErrorCode::kBadFormat, path_, "compressed data is cut short");
       const auto room = static_cast<uInt>(std::min<std::uint64_t>(bytes - done, 1u << 30));
       stream_.next_out = to + done;
       stream_.avail_out = room;
@@ -107,7 +108,8 @@ void swap_words(void* voxels, std::uint64_t count) {
 
 }  // namespace
 
-void read_plain(const std::filesystem::path& path, std::uint64_t offset_bytes, void* voxels, std::uint64_t bytes) {
+void read_plain(const std::filesystem::path& path, std::uint64_t offset_bytes, void* voxels,
+                std::uint64_t bytes) {
   std::ifstream file = open_at(path, offset_bytes);
   file.read(static_cast<char*>(voxels), static_cast<std::streamsize>(bytes));
   const auto found = static_cast<std::uint64_t>(file.gcount());
@@ -152,14 +154,22 @@ void read_text(const std::filesystem::path& path, std::uint64_t offset_bytes, Vo
                std::uint64_t count) {
   std::ifstream file = open_at(path, offset_bytes);
   switch (type) {
-    case VoxelType::kU8: return parse_numbers(path, file, static_cast<std::uint8_t*>(voxels), count);
-    case VoxelType::kI8: return parse_numbers(path, file, static_cast<std::int8_t*>(voxels), count);
-    case VoxelType::kU16: return parse_numbers(path, file, static_cast<std::uint16_t*>(voxels), count);
-    case VoxelType::kI16: return parse_numbers(path, file, static_cast<std::int16_t*>(voxels), count);
-    case VoxelType::kU32: return parse_numbers(path, file, static_cast<std::uint32_t*>(voxels), count);
-    case VoxelType::kI32: return parse_numbers(path, file, static_cast<std::int32_t*>(voxels), count);
-    case VoxelType::kF32: return parse_numbers(path, file, static_cast<float*>(voxels), count);
-    case VoxelType::kF64: return parse_numbers(path, file, static_cast<double*>(voxels), count);
+    case VoxelType::kU8:
+      return parse_numbers(path, file, static_cast<std::uint8_t*>(voxels), count);
+    case VoxelType::kI8:
+      return parse_numbers(path, file, static_cast<std::int8_t*>(voxels), count);
+    case VoxelType::kU16:
+      return parse_numbers(path, file, static_cast<std::uint16_t*>(voxels), count);
+    case VoxelType::kI16:
+      return parse_numbers(path, file, static_cast<std::int16_t*>(voxels), count);
+    case VoxelType::kU32:
+      return parse_numbers(path, file, static_cast<std::uint32_t*>(voxels), count);
+    case VoxelType::kI32:
+      return parse_numbers(path, file, static_cast<std::int32_t*>(voxels), count);
+    case VoxelType::kF32:
+      return parse_numbers(path, file, static_cast<float*>(voxels), count);
+    case VoxelType::kF64:
+      return parse_numbers(path, file, static_cast<double*>(voxels), count);
   }
 }
 
@@ -169,7 +179,8 @@ void swap_bytes(void* voxels, std::uint64_t count, std::size_t value_bytes) {
   if (value_bytes == 8) swap_words<std::uint64_t>(voxels, count);
 }
 
-void check_deflated_size(const std::filesystem::path& path, std::uint64_t file_bytes, std::uint64_t voxel_bytes) {
+void check_deflated_size(const std::filesystem::path& path, std::uint64_t file_bytes,
+                         std::uint64_t voxel_bytes) {
   constexpr std::uint64_t kMaxRatio = 1032;
   if (voxel_bytes / kMaxRatio > file_bytes) {
     fail(ErrorCode::kBadFormat, path,

@@ -10,11 +10,12 @@ namespace voxlume {
 
 /// Reads `bytes` bytes from `offset_bytes` of the file into `voxels`.
 /// Throws Error kBadFormat ("expected N bytes of voxels, file has M") when the file is too short.
-void read_plain(const std::filesystem::path& path, std::uint64_t offset_bytes, void* voxels, std::uint64_t bytes);
+void read_plain(const std::filesystem::path& path, std::uint64_t offset_bytes, void* voxels,
+                std::uint64_t bytes);
 
-/// Inflates the zlib or gzip stream (members may be concatenated) that starts at `offset_bytes`, drops its first
-/// `skip_bytes` and reads the next `bytes` into `voxels`. The stream's checksum is verified.
-/// Throws Error kBadFormat when the stream is damaged or too short.
+/// Inflates the zlib or gzip stream (members may be concatenated) that starts at `offset_bytes`, drops its
+/// first `skip_bytes` and reads the next `bytes` into `voxels`. The stream's checksum is verified. Throws
+/// Error kBadFormat when the stream is damaged or too short.
 void read_deflated(const std::filesystem::path& path, std::uint64_t offset_bytes, std::uint64_t skip_bytes,
                    void* voxels, std::uint64_t bytes);
 
@@ -35,6 +36,7 @@ void swap_bytes(void* voxels, std::uint64_t count, std::size_t value_bytes);
 
 /// Throws Error kBadFormat when `file_bytes` of any compressed data cannot inflate to `voxel_bytes`
 /// (deflate reaches 1032:1 at most).
-void check_deflated_size(const std::filesystem::path& path, std::uint64_t file_bytes, std::uint64_t voxel_bytes);
+void check_deflated_size(const std::filesystem::path& path, std::uint64_t file_bytes,
+                         std::uint64_t voxel_bytes);
 
 }  // namespace voxlume

@@ -28,7 +28,8 @@ void check_dimensions_line(const std::filesystem::path& path, const std::string&
   std::int64_t n[3] = {};
   words >> word >> n[0] >> n[1] >> n[2];
   if (!words || n[0] < 1 || n[1] < 1 || n[2] < 1) {
-    fail(ErrorCode::kBadFormat, path, fmt::format("\"{}\"; expected three whole numbers above 0", one_line(line)));
+    fail(ErrorCode::kBadFormat, path,
+         fmt::format("\"{}\"; expected three whole numbers above 0", one_line(line)));
   }
 }
 
@@ -42,7 +43,8 @@ VtkData find_vtk_data(const std::filesystem::path& path) {
     std::transform(line.begin(), line.end(), line.begin(), [](unsigned char c) { return std::tolower(c); });
     if (i == 2) data.binary = line.starts_with("binary");
     if (line.starts_with("dataset") && line.find("structured_points") == std::string::npos) {
-      fail(ErrorCode::kUnsupported, path, fmt::format("\"{}\"; expected DATASET STRUCTURED_POINTS", one_line(line)));
+      fail(ErrorCode::kUnsupported, path,
+           fmt::format("\"{}\"; expected DATASET STRUCTURED_POINTS", one_line(line)));
     }
     if (line.starts_with("dimensions")) check_dimensions_line(path, line);
     if (!line.starts_with("scalars")) continue;

@@ -52,7 +52,8 @@ const char* sop_class(const std::string& modality) {
   return "1.2.840.10008.5.1.4.1.1.7";  // secondary capture
 }
 
-void put_identity(gdcm::DataSet& data, const std::string& modality, const SeriesIds& ids, std::int64_t slice) {
+void put_identity(gdcm::DataSet& data, const std::string& modality, const SeriesIds& ids,
+                  std::int64_t slice) {
   gdcm::UIDGenerator uids;
   put_text(data, {0x0008, 0x0016}, gdcm::VR::UI, sop_class(modality));
   put_text(data, {0x0008, 0x0018}, gdcm::VR::UI, uids.Generate());
@@ -88,7 +89,8 @@ void put_plane(gdcm::DataSet& data, const Volume& volume, std::int64_t slice) {
   put_text(data, {0x0018, 0x0088}, gdcm::VR::DS, decimal(volume.spacing_mm[2]));
   put_text(data, {0x0020, 0x0032}, gdcm::VR::DS, position);
   put_text(data, {0x0020, 0x0037}, gdcm::VR::DS, orientation);
-  put_text(data, {0x0028, 0x0030}, gdcm::VR::DS, fmt::format("{}\\{}", decimal(volume.spacing_mm[1]), decimal(volume.spacing_mm[0])));
+  put_text(data, {0x0028, 0x0030}, gdcm::VR::DS,
+           fmt::format("{}\\{}", decimal(volume.spacing_mm[1]), decimal(volume.spacing_mm[0])));
 }
 
 void put_pixels(gdcm::DataSet& data, const Volume& volume, VoxelType type, std::int64_t slice) {
@@ -118,11 +120,13 @@ void put_pixels(gdcm::DataSet& data, const Volume& volume, VoxelType type, std::
 void check_representable(const Volume& volume, const std::filesystem::path& folder) {
   constexpr std::int64_t kMaxSide = 65535;
   if (volume.size[0] > kMaxSide || volume.size[1] > kMaxSide || volume.size[2] > 1'000'000) {
-    fail(ErrorCode::kUnsupported, folder, fmt::format("{}; DICOM slices are at most 65535 wide", fmt::join(volume.size, "x")));
+    fail(ErrorCode::kUnsupported, folder,
+         fmt::format("{}; DICOM slices are at most 65535 wide", fmt::join(volume.size, "x")));
   }
   if (voxel_bytes(volume.type) > 2) {
     fail(ErrorCode::kUnsupported, folder,
-         fmt::format("{} voxels; a DICOM series is written from u8, i8, u16 or i16", voxel_type_name(volume.type)));
+         fmt::format("{} voxels; a DICOM series is written from u8, i8, u16 or i16",
+                     voxel_type_name(volume.type)));
   }
 }
 

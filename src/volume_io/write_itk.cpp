@@ -16,25 +16,38 @@ namespace {
 
 itk::ImageIOBase::Pointer make_io(FileFormat format) {
   switch (format) {
-    case FileFormat::kMetaImage: return itk::MetaImageIO::New().GetPointer();
-    case FileFormat::kNifti: return itk::NiftiImageIO::New().GetPointer();
-    case FileFormat::kVtk: return itk::VTKImageIO::New().GetPointer();
-    case FileFormat::kHdf5: return itk::HDF5ImageIO::New().GetPointer();
-    default: return itk::NrrdImageIO::New().GetPointer();
+    case FileFormat::kMetaImage:
+      return itk::MetaImageIO::New().GetPointer();
+    case FileFormat::kNifti:
+      return itk::NiftiImageIO::New().GetPointer();
+    case FileFormat::kVtk:
+      return itk::VTKImageIO::New().GetPointer();
+    case FileFormat::kHdf5:
+      return itk::HDF5ImageIO::New().GetPointer();
+    default:
+      return itk::NrrdImageIO::New().GetPointer();
   }
 }
 
 itk::IOComponentEnum component_of(VoxelType type) {
   using Component = itk::IOComponentEnum;
   switch (type) {
-    case VoxelType::kU8: return Component::UCHAR;
-    case VoxelType::kI8: return Component::CHAR;
-    case VoxelType::kU16: return Component::USHORT;
-    case VoxelType::kI16: return Component::SHORT;
-    case VoxelType::kU32: return Component::UINT;
-    case VoxelType::kI32: return Component::INT;
-    case VoxelType::kF32: return Component::FLOAT;
-    default: return Component::DOUBLE;
+    case VoxelType::kU8:
+      return Component::UCHAR;
+    case VoxelType::kI8:
+      return Component::CHAR;
+    case VoxelType::kU16:
+      return Component::USHORT;
+    case VoxelType::kI16:
+      return Component::SHORT;
+    case VoxelType::kU32:
+      return Component::UINT;
+    case VoxelType::kI32:
+      return Component::INT;
+    case VoxelType::kF32:
+      return Component::FLOAT;
+    default:
+      return Component::DOUBLE;
   }
 }
 
@@ -50,7 +63,8 @@ bool is_identity(const std::array<double, 9>& m) {
 void write_itk(const Volume& volume, const std::filesystem::path& path, FileFormat format) {
   if (format == FileFormat::kVtk && !is_identity(volume.direction)) {
     fail(ErrorCode::kUnsupported, path,
-         "legacy VTK carries no orientation and this volume is rotated or flipped; write .nrrd or .mha instead");
+         "legacy VTK carries no orientation and this volume is rotated or flipped; write .nrrd or .mha "
+         "instead");
   }
   const itk::ImageIOBase::Pointer io = make_io(format);
   itk::ImageIORegion region(3);

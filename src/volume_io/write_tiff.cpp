@@ -11,10 +11,13 @@ std::uint16_t sample_format(VoxelType type) {
   switch (type) {
     case VoxelType::kI8:
     case VoxelType::kI16:
-    case VoxelType::kI32: return SAMPLEFORMAT_INT;
+    case VoxelType::kI32:
+      return SAMPLEFORMAT_INT;
     case VoxelType::kF32:
-    case VoxelType::kF64: return SAMPLEFORMAT_IEEEFP;
-    default: return SAMPLEFORMAT_UINT;
+    case VoxelType::kF64:
+      return SAMPLEFORMAT_IEEEFP;
+    default:
+      return SAMPLEFORMAT_UINT;
   }
 }
 

@@ -53,7 +53,8 @@ std::uint32_t last_word(const std::filesystem::path& path) {
   file.seekg(-4, std::ios::end);
   unsigned char b[4] = {};
   file.read(reinterpret_cast<char*>(b), 4);
-  return static_cast<std::uint32_t>(b[0] | (b[1] << 8) | (b[2] << 16)) | (static_cast<std::uint32_t>(b[3]) << 24);
+  return static_cast<std::uint32_t>(b[0] | (b[1] << 8) | (b[2] << 16)) |
+         (static_cast<std::uint32_t>(b[3]) << 24);
 }
 
 /// The libraries do not all report a full disk: looks whether the voxels can be there.
@@ -67,7 +68,8 @@ void check_written(const Volume& volume, const std::vector<std::filesystem::path
   bool whole = total >= volume.byte_count();
   if (extension == ".nrrd") whole = total > 64 && last_word(files[0]) == gzip_length;
   if (extension == ".nii.gz") whole = total > 64 && last_word(files[0]) == gzip_length + kNiftiVoxelOffset;
-  if (extension == ".vdb" || extension == ".h5" || extension == ".hdf5") whole = total > 0;  // these libraries throw
+  if (extension == ".vdb" || extension == ".h5" || extension == ".hdf5")
+    whole = total > 0;  // these libraries throw
   if (!whole) fail(ErrorCode::kInternal, path, "not everything could be written (disk full?)");
 }
 
@@ -79,10 +81,12 @@ void check_data_name_free(const std::filesystem::path& path) {
   other.replace_extension(extension == ".nhdr" ? ".mhd" : ".nhdr");
   if (!std::filesystem::exists(other)) return;
   fail(ErrorCode::kBadParameter, path,
-       fmt::format("its voxels would overwrite those of \"{}\"; expected another name", other.filename().string()));
+       fmt::format("its voxels would overwrite those of \"{}\"; expected another name",
+                   other.filename().string()));
 }
 
-/// Moves a written volume into place, its header last: a header found there always belongs to the data beside it.
+/// Moves a written volume into place, its header last: a header found there always belongs to the data beside
+/// it.
 void put_in_place(const std::vector<std::filesystem::path>& files, const std::filesystem::path& path) {
   const bool detached = files.size() > 1;
   if (detached) {
@@ -102,9 +106,14 @@ void write_file(const Volume& volume, const std::filesystem::path& path, FileFor
   const AsideFolder aside(folder_of(path));
   const std::filesystem::path target = aside.path() / path.filename();
   switch (format) {
-    case FileFormat::kTiff: write_tiff(volume, target); break;
-    case FileFormat::kVdb: write_vdb(volume, target); break;
-    default: write_itk(volume, target, format);
+    case FileFormat::kTiff:
+      write_tiff(volume, target);
+      break;
+    case FileFormat::kVdb:
+      write_vdb(volume, target);
+      break;
+    default:
+      write_itk(volume, target, format);
   }
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(aside.path())) files.push_back(entry.path());
@@ -116,7 +125,8 @@ void write_file(const Volume& volume, const std::filesystem::path& path, FileFor
 void write_folder(const Volume& volume, std::filesystem::path path) {
   if (!path.has_filename()) path = path.parent_path();
   if (std::filesystem::exists(path) && !std::filesystem::is_empty(path)) {
-    fail(ErrorCode::kBadParameter, path, "the folder is not empty; expected an empty or new one for a DICOM series");
+    fail(ErrorCode::kBadParameter, path,
+         "the folder is not empty; expected an empty or new one for a DICOM series");
   }
   const AsideFolder aside(folder_of(path));
   const std::filesystem::path target = aside.path() / "series";

@@ -1,6 +1,6 @@
-// libFuzzer target of the volume readers. The first byte of an input chooses the extension, the rest is the file.
-// Reading happens in this process, not in the usual child, so that a crash of a reader is a crash of the fuzzer:
-// those of ITK, GDCM, HDF5 and OpenVDB on damaged files are known and are what the child is for.
+// libFuzzer target of the volume readers. The first byte of an input chooses the extension, the rest is the
+// file. Reading happens in this process, not in the usual child, so that a crash of a reader is a crash of
+// the fuzzer: those of ITK, GDCM, HDF5 and OpenVDB on damaged files are known and are what the child is for.
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -39,7 +39,8 @@ std::uint64_t sum_of(const voxlume::Volume& volume) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
-  const std::filesystem::path path = folder() / (std::string("input") + kExtensions[data[0] % std::size(kExtensions)]);
+  const std::filesystem::path path =
+      folder() / (std::string("input") + kExtensions[data[0] % std::size(kExtensions)]);
   std::ofstream(path, std::ios::binary)
       .write(reinterpret_cast<const char*>(data + 1), static_cast<std::streamsize>(size - 1));
   voxlume::ReadOptions options;

@@ -18,8 +18,8 @@ bool has_address(const std::string& text) {
   return false;
 }
 
-/// Reads damaged files and counts: each must give an Error of one line. Where damage may go unnoticed (a flipped bit in
-/// a voxel), reading without an error is allowed, but then the volume must be whole.
+/// Reads damaged files and counts: each must give an Error of one line. Where damage may go unnoticed (a
+/// flipped bit in a voxel), reading without an error is allowed, but then the volume must be whole.
 class Damage : public testing::Test {
  protected:
   void must_fail(const std::string& name, const std::string& bytes, const std::string& what) {
@@ -93,7 +93,8 @@ class Damage : public testing::Test {
     }
   }
 
-  void replace_and_fail(const std::string& name, const std::string& bytes, const std::string& from, const std::string& to) {
+  void replace_and_fail(const std::string& name, const std::string& bytes, const std::string& from,
+                        const std::string& to) {
     std::string damaged = bytes;
     const std::size_t at = damaged.find(from);
     ASSERT_NE(at, std::string::npos) << from;
@@ -109,7 +110,8 @@ TEST_F(Damage, Nrrd) {
   const std::string bytes = good("a.nrrd");
   cut_short("a.nrrd", bytes);
   flip_bytes("a.nrrd", bytes, bytes.size(), 40);
-  for (const char* sizes : {"9 8 n", "9 8", "9 8 0", "9 8 -7", "9 8 700", "99999999 99999999 99999999", "1e9 2 3", ""}) {
+  for (const char* sizes :
+       {"9 8 n", "9 8", "9 8 0", "9 8 -7", "9 8 700", "99999999 99999999 99999999", "1e9 2 3", ""}) {
     replace_and_fail("a.nrrd", bytes, "sizes: 9 8 7", std::string("sizes: ") + sizes);
   }
   replace_and_fail("a.nrrd", bytes, "type: short", "type: shirt");
@@ -146,7 +148,8 @@ TEST_F(Damage, MetaImage) {
   replace_and_fail("a.mha", bytes, "NDims = 3", "NDims = 99");
   replace_and_fail("a.mha", bytes, "ElementSpacing = 1 1 1", "ElementSpacing = 1 0 1");
   replace_and_fail("a.mha", bytes, "ElementSpacing = 1 1 1", "ElementSpacing = 1 -1 1");
-  replace_and_fail("a.mha", bytes, "TransformMatrix = 1 0 0 0 1 0 0 0 1", "TransformMatrix = 0 0 0 0 1 0 0 0 1");
+  replace_and_fail("a.mha", bytes, "TransformMatrix = 1 0 0 0 1 0 0 0 1",
+                   "TransformMatrix = 0 0 0 0 1 0 0 0 1");
   replace_and_fail("a.mha", bytes, "CompressedData = False", "CompressedData = True");
   EXPECT_GE(tried_, 60);
 }
@@ -250,7 +253,8 @@ TEST_F(Damage, FoldersAndNames) {
     fs::create_directory(folder_ / name);
     expect_one_line_error(folder_ / name);
   }
-  for (const char* name : {"e.nrrd", "e.nhdr", "e.mha", "e.mhd", "e.nii", "e.nii.gz", "e.tif", "e.vtk", "e.h5", "e.vdb", "e.dcm", "e"}) {
+  for (const char* name : {"e.nrrd", "e.nhdr", "e.mha", "e.mhd", "e.nii", "e.nii.gz", "e.tif", "e.vtk",
+                           "e.h5", "e.vdb", "e.dcm", "e"}) {
     must_fail(name, "", "empty");
     must_fail(name, "x", "one byte");
     must_fail(name, std::string(5000, '\0'), "zeros");

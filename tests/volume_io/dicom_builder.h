@@ -11,8 +11,8 @@
 
 namespace voxlume::test {
 
-/// Writes DICOM files byte by byte (explicit VR, little-endian), independent of the library under test. Patient data
-/// are put in on purpose: none of them may come out again.
+/// Writes DICOM files byte by byte (explicit VR, little-endian), independent of the library under test.
+/// Patient data are put in on purpose: none of them may come out again.
 struct DicomBuilder {
   static constexpr int kColumns = 6;
   static constexpr int kRows = 4;
@@ -52,8 +52,8 @@ struct DicomBuilder {
   }
 
   static std::string item(const std::string& content) {
-    return bytes_of<std::uint16_t>({0xfffe, 0xe000}) + bytes_of<std::uint32_t>({static_cast<std::uint32_t>(content.size())}) +
-           content;
+    return bytes_of<std::uint16_t>({0xfffe, 0xe000}) +
+           bytes_of<std::uint32_t>({static_cast<std::uint32_t>(content.size())}) + content;
   }
 
   static std::string position_text(const std::array<double, 3>& p) {
@@ -81,7 +81,8 @@ struct DicomBuilder {
     put(0x0020, 0x0013, "IS", fmt::format("{}", instance));
     if (with_position) {
       std::string directions;
-      for (const double d : orientation) directions += fmt::format("{}{:.9g}", directions.empty() ? "" : "\\", d);
+      for (const double d : orientation)
+        directions += fmt::format("{}{:.9g}", directions.empty() ? "" : "\\", d);
       put(0x0020, 0x0032, "DS", position_text(position_mm));
       put(0x0020, 0x0037, "DS", directions);
     }
@@ -108,12 +109,14 @@ struct DicomBuilder {
                              element(0x0002, 0x0003, "UI", fmt::format("{}.{}", series, instance)) +
                              element(0x0002, 0x0010, "UI", "1.2.840.10008.1.2.1");
     return std::string(128, '\0') + "DICM" +
-           element(0x0002, 0x0000, "UL", bytes_of<std::uint32_t>({static_cast<std::uint32_t>(meta.size())})) + meta + data;
+           element(0x0002, 0x0000, "UL", bytes_of<std::uint32_t>({static_cast<std::uint32_t>(meta.size())})) +
+           meta + data;
   }
 
   /// A slice whose every pixel is `value`, but for the first two, which count along the row.
   std::string slice(int instance, const std::array<double, 3>& position_mm, int value) const {
-    std::vector<std::uint16_t> pixels(static_cast<std::size_t>(columns) * rows * samples, static_cast<std::uint16_t>(value));
+    std::vector<std::uint16_t> pixels(static_cast<std::size_t>(columns) * rows * samples,
+                                      static_cast<std::uint16_t>(value));
     return file(instance, position_mm, bytes_of(pixels));
   }
 };

@@ -15,7 +15,8 @@ using Vec = std::array<double, 3>;
 std::vector<double> slice_values(const Volume& volume) {
   std::vector<double> values;
   const auto pixels = static_cast<std::size_t>(volume.size[0] * volume.size[1]);
-  for (std::int64_t k = 0; k < volume.size[2]; ++k) values.push_back(value_at(volume, static_cast<std::size_t>(k) * pixels));
+  for (std::int64_t k = 0; k < volume.size[2]; ++k)
+    values.push_back(value_at(volume, static_cast<std::size_t>(k) * pixels));
   return values;
 }
 
@@ -43,7 +44,8 @@ TEST(Dicom, WriterRefusesWhatDicomLacks) {
   expect_error(ErrorCode::kUnsupported, "f32",
                [&] { write_volume(make_test_volume(VoxelType::kF32), (folder / "a").string() + "/"); });
   write_bytes(folder / "other.txt", "x");
-  expect_error(ErrorCode::kBadParameter, "not empty", [&] { write_volume(make_test_volume(VoxelType::kI16), folder.path()); });
+  expect_error(ErrorCode::kBadParameter, "not empty",
+               [&] { write_volume(make_test_volume(VoxelType::kI16), folder.path()); });
 }
 
 TEST(Dicom, LeftHandedVolumeKeepsItsPlaces) {
@@ -62,7 +64,8 @@ TEST(Dicom, OrderedByPositionNotByNameOrNumber) {
   const DicomBuilder dicom;
   const double depths[] = {9, 0, 3, 12, 6};  // in the order of the names
   for (int i = 0; i < 5; ++i) {
-    write_bytes(folder / fmt::format("im{}", i), dicom.slice(100 - i, {-10, -20, depths[i] - 50}, 1024 + static_cast<int>(depths[i])));
+    write_bytes(folder / fmt::format("im{}", i),
+                dicom.slice(100 - i, {-10, -20, depths[i] - 50}, 1024 + static_cast<int>(depths[i])));
   }
   const Volume volume = read_volume(folder.path());
   EXPECT_EQ(slice_values(volume), (std::vector<double>{0, 3, 6, 9, 12}));
@@ -80,7 +83,8 @@ TEST(Dicom, RescaleIsAppliedAndChoosesTheType) {
   const auto read_with = [&](const char* slope, const char* intercept, int value) {
     dicom.slope = slope;
     dicom.intercept = intercept;
-    for (int i = 0; i < 3; ++i) write_bytes(folder / fmt::format("{}.dcm", i), dicom.slice(i, {0, 0, 3.0 * i}, value));
+    for (int i = 0; i < 3; ++i)
+      write_bytes(folder / fmt::format("{}.dcm", i), dicom.slice(i, {0, 0, 3.0 * i}, value));
     return read_volume(folder.path());
   };
   const Volume halves = read_with("0.5", "-10", 101);
@@ -110,7 +114,8 @@ TEST(Dicom, UnevenSpacingWarns) {
   const TempFolder folder;
   const DicomBuilder dicom;
   const double depths[] = {0, 2, 4, 6, 9.1, 11.1};
-  for (int i = 0; i < 6; ++i) write_bytes(folder / fmt::format("{}.dcm", i), dicom.slice(i, {0, 0, depths[i]}, 1024 + i));
+  for (int i = 0; i < 6; ++i)
+    write_bytes(folder / fmt::format("{}.dcm", i), dicom.slice(i, {0, 0, depths[i]}, 1024 + i));
   const Volume volume = read_volume(folder.path());
   EXPECT_TRUE(warns(volume, "uneven slice spacing: steps of 2 to 3.1 mm"));
   EXPECT_NEAR(volume.spacing_mm[2], 11.1 / 5, 1e-9);
@@ -132,7 +137,8 @@ TEST(Dicom, GantryTiltWarns) {
   DicomBuilder dicom;
   const double angle = 15 * 3.14159265358979 / 180;
   dicom.orientation = {1, 0, 0, 0, std::cos(angle), -std::sin(angle)};
-  for (int i = 0; i < 5; ++i) write_bytes(folder / fmt::format("{}.dcm", i), dicom.slice(i, {0, 0, 4.0 * i}, 1024 + i));
+  for (int i = 0; i < 5; ++i)
+    write_bytes(folder / fmt::format("{}.dcm", i), dicom.slice(i, {0, 0, 4.0 * i}, 1024 + i));
   const Volume volume = read_volume(folder.path());
   EXPECT_TRUE(warns(volume, "gantry tilt: the slices are sheared by 15.0 degrees"));
   EXPECT_NEAR(volume.spacing_mm[2], 4 * std::cos(angle), 1e-4);
@@ -142,7 +148,8 @@ TEST(Dicom, TiltTagWithoutShearWarns) {
   const TempFolder folder;
   DicomBuilder dicom;
   dicom.tilt = "-12.5";
-  for (int i = 0; i < 3; ++i) write_bytes(folder / fmt::format("{}.dcm", i), dicom.slice(i, {0, 0, 4.0 * i}, 1024 + i));
+  for (int i = 0; i < 3; ++i)
+    write_bytes(folder / fmt::format("{}.dcm", i), dicom.slice(i, {0, 0, 4.0 * i}, 1024 + i));
   EXPECT_TRUE(warns(read_volume(folder.path()), "gantry tilt of -12.5 degrees"));
 }
 
@@ -153,8 +160,10 @@ TEST(Dicom, LargestOfTwoSeriesIsReadAndTheOtherNamed) {
   small.series_number = 7;
   small.modality = "MR";
   const DicomBuilder large;
-  for (int i = 0; i < 6; ++i) write_bytes(folder / fmt::format("b{}", i), large.slice(i, {0, 0, 4.0 * i}, 1024 + i));
-  for (int i = 0; i < 3; ++i) write_bytes(folder / fmt::format("a{}", i), small.slice(i, {0, 0, 4.0 * i}, 2000));
+  for (int i = 0; i < 6; ++i)
+    write_bytes(folder / fmt::format("b{}", i), large.slice(i, {0, 0, 4.0 * i}, 1024 + i));
+  for (int i = 0; i < 3; ++i)
+    write_bytes(folder / fmt::format("a{}", i), small.slice(i, {0, 0, 4.0 * i}, 2000));
   write_bytes(folder / "notes.txt", "not an image");
   const Volume volume = read_volume(folder.path());
   EXPECT_EQ(volume.size[2], 6);
@@ -170,7 +179,8 @@ TEST(Dicom, ObliqueSeriesIsPlacedByItsTags) {
   dicom.orientation = {r[0], r[3], r[6], r[1], r[4], r[7]};
   for (int i = 0; i < 4; ++i) {
     const double t = 2.5 * (3 - i);
-    write_bytes(folder / fmt::format("{}.dcm", i), dicom.slice(i, {5 + r[2] * t, 6 + r[5] * t, 7 + r[8] * t}, 1024 + i));
+    write_bytes(folder / fmt::format("{}.dcm", i),
+                dicom.slice(i, {5 + r[2] * t, 6 + r[5] * t, 7 + r[8] * t}, 1024 + i));
   }
   const Volume volume = read_volume(folder.path());
   EXPECT_EQ(slice_values(volume), (std::vector<double>{3, 2, 1, 0}));
@@ -185,14 +195,16 @@ TEST(Dicom, NothingOfThePatientLeavesTheReader) {
   DicomBuilder dicom;
   dicom.tilt = "3";
   dicom.modality = "SecretModality";
-  for (const int i : {0, 1, 3, 4}) write_bytes(folder / fmt::format("{}.dcm", i), dicom.slice(i, {0, 0, 2.0 * i}, 1024));
+  for (const int i : {0, 1, 3, 4})
+    write_bytes(folder / fmt::format("{}.dcm", i), dicom.slice(i, {0, 0, 2.0 * i}, 1024));
   dicom.series = "1.2.9";
   write_bytes(folder / "x.dcm", dicom.slice(9, {0, 0, 0}, 1024));
   const Volume volume = read_volume(folder.path());
   EXPECT_EQ(volume.modality, "");
   std::string said = volume.modality + volume.format;
   for (const std::string& warning : volume.warnings) said += warning;
-  for (const char* secret : {"Secret", "1999", "1.2.3", "1.2.9"}) EXPECT_EQ(said.find(secret), std::string::npos) << said;
+  for (const char* secret : {"Secret", "1999", "1.2.3", "1.2.9"})
+    EXPECT_EQ(said.find(secret), std::string::npos) << said;
   write_volume(volume, folder / "out.nrrd");
   write_volume(volume, (folder / "out").string() + "/");
   std::string written = read_bytes(folder / "out.nrrd");
@@ -208,13 +220,16 @@ TEST(Dicom, EnhancedMultiFrameIsOrderedByFramePositions) {
   const double depths[] = {4, 0, 2};
   std::string items;
   for (const double depth : depths) {
-    const std::string position = DicomBuilder::element(0x0020, 0x0032, "DS", DicomBuilder::position_text({1, 2, depth}));
+    const std::string position =
+        DicomBuilder::element(0x0020, 0x0032, "DS", DicomBuilder::position_text({1, 2, depth}));
     items += DicomBuilder::item(DicomBuilder::element(0x0020, 0x9113, "SQ", DicomBuilder::item(position)));
   }
   const std::string plane = DicomBuilder::element(0x0020, 0x0037, "DS", "1\\0\\0\\0\\1\\0");
-  dicom.groups = DicomBuilder::element(0x5200, 0x9229, "SQ",
-                                       DicomBuilder::item(DicomBuilder::element(0x0020, 0x9116, "SQ", DicomBuilder::item(plane)))) +
-                 DicomBuilder::element(0x5200, 0x9230, "SQ", items);
+  dicom.groups =
+      DicomBuilder::element(
+          0x5200, 0x9229, "SQ",
+          DicomBuilder::item(DicomBuilder::element(0x0020, 0x9116, "SQ", DicomBuilder::item(plane)))) +
+      DicomBuilder::element(0x5200, 0x9230, "SQ", items);
   std::vector<std::uint16_t> pixels;
   for (const double depth : depths) pixels.insert(pixels.end(), 24, static_cast<std::uint16_t>(1024 + depth));
   write_bytes(folder / "a.dcm", dicom.file(1, {}, bytes_of(pixels)));
@@ -229,7 +244,8 @@ TEST(Dicom, MultiFrameWithoutPositionsIsRefused) {
   DicomBuilder dicom;
   dicom.frames = 3;
   write_bytes(folder / "a.dcm", dicom.file(1, {}, std::string(144, '\1')));
-  expect_error(ErrorCode::kUnsupported, "multi-frame DICOM of 3 frames", [&] { read_volume(folder / "a.dcm"); });
+  expect_error(ErrorCode::kUnsupported, "multi-frame DICOM of 3 frames",
+               [&] { read_volume(folder / "a.dcm"); });
 }
 
 TEST(Dicom, ColourIsRefused) {

@@ -23,7 +23,8 @@ TEST(Isolation, MemoryLimitIsCheckedBeforeAnythingIsAllocated) {
   write_volume(make_test_volume(VoxelType::kI16, {10, 10, 10}), folder / "a.nrrd");
   ReadOptions options;
   options.memory_limit_bytes = 1999;
-  expect_error(ErrorCode::kOutOfMemory, "10x10x10 i16 voxels need 2000 bytes of memory; 1999 bytes is the limit given",
+  expect_error(ErrorCode::kOutOfMemory,
+               "10x10x10 i16 voxels need 2000 bytes of memory; 1999 bytes is the limit given",
                [&] { read_volume(folder / "a.nrrd", options); });
   options.memory_limit_bytes = 2000;
   EXPECT_EQ(read_volume(folder / "a.nrrd", options).byte_count(), 2000u);
@@ -33,7 +34,8 @@ TEST(Isolation, MoreThanTheMachineHasIsRefused) {
   const TempFolder folder;
   // A sparse data file holds what the header promises: only memory stands in the way.
   write_bytes(folder / "a.mhd",
-              "ObjectType = Image\nNDims = 3\nDimSize = 65536 8192 8192\nElementType = MET_UCHAR\nElementDataFile = a.raw\n");
+              "ObjectType = Image\nNDims = 3\nDimSize = 65536 8192 8192\nElementType = "
+              "MET_UCHAR\nElementDataFile = a.raw\n");
   write_bytes(folder / "a.raw", "");
   fs::resize_file(folder / "a.raw", 1ull << 42);
   expect_error(ErrorCode::kOutOfMemory, "need 4398.0 GB of memory", [&] { read_volume(folder / "a.mhd"); });
@@ -50,7 +52,8 @@ TEST(Isolation, LeavesNoDescriptorNoChildNoOutput) {
   testing::internal::CaptureStdout();
   {
     const Volume volume = read_volume(folder / "a.nrrd");
-    for (const char* name : {"bad.nrrd", "bad.h5", "bad.tif"}) EXPECT_THROW(read_volume(folder / name), Error) << name;
+    for (const char* name : {"bad.nrrd", "bad.h5", "bad.tif"})
+      EXPECT_THROW(read_volume(folder / name), Error) << name;
   }
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");

@@ -25,7 +25,9 @@ struct NiftiBuilder {
 
   std::string header() const {
     std::string bytes(352, '\0');
-    const auto put = [&](std::size_t at, const void* from, std::size_t count) { std::memcpy(&bytes[at], from, count); };
+    const auto put = [&](std::size_t at, const void* from, std::size_t count) {
+      std::memcpy(&bytes[at], from, count);
+    };
     put(0, &header_size, 4);
     put(40, dim.data(), 16);
     put(70, &datatype, 2);

@@ -18,7 +18,8 @@ double head(const Vec& p) {
     const double d2 = (p[0] - x) * (p[0] - x) + (p[1] - y) * (p[1] - y) + (p[2] - z) * (p[2] - z);
     return std::exp(-d2 / 800);
   };
-  return 1000 * std::exp(-8 * (r - 0.8) * (r - 0.8)) + 700 * blob(40, 0, 0) + 500 * blob(0, -60, 10) + 300 * blob(5, 0, 50);
+  return 1000 * std::exp(-8 * (r - 0.8) * (r - 0.8)) + 700 * blob(40, 0, 0) + 500 * blob(0, -60, 10) +
+         300 * blob(5, 0, 50);
 }
 
 Volume head_volume(const std::array<double, 9>& direction, const Vec& spacing_mm) {
@@ -29,9 +30,11 @@ Volume head_volume(const std::array<double, 9>& direction, const Vec& spacing_mm
   const Vec centre = {35.5, 37.5, 34.5};
   const Vec away = p_world_of(frame, centre);
   frame.origin_mm = {-away[0], -away[1], -away[2]};
-  Volume volume = make_volume(VoxelType::kF32, frame.size, [&](std::int64_t i, std::int64_t j, std::int64_t k) {
-    return head(p_world_of(frame, {static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)}));
-  });
+  Volume volume =
+      make_volume(VoxelType::kF32, frame.size, [&](std::int64_t i, std::int64_t j, std::int64_t k) {
+        return head(
+            p_world_of(frame, {static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)}));
+      });
   volume.spacing_mm = frame.spacing_mm;
   volume.origin_mm = frame.origin_mm;
   volume.direction = frame.direction;
@@ -40,7 +43,8 @@ Volume head_volume(const std::array<double, 9>& direction, const Vec& spacing_mm
 
 /// Interpolated values of both agree with the head they were made from, at points all over it.
 void expect_same_head(const Volume& a, const Volume& b) {
-  // Linear interpolation of blobs 20 mm wide on a grid of about 3 mm is off by h^2/8 times the second derivative.
+  // Linear interpolation of blobs 20 mm wide on a grid of about 3 mm is off by h^2/8 times the second
+  // derivative.
   constexpr double kInterpolation = 12;
   int points = 0;
   for (double z = -60; z <= 60; z += 7.3) {
@@ -61,7 +65,8 @@ void expect_same_head(const Volume& a, const Volume& b) {
 TEST(Orientation, ObliqueAndAxialHeadsAgreeAtEveryPoint) {
   const TempFolder folder;
   const Volume axial = head_volume({1, 0, 0, 0, 1, 0, 0, 0, 1}, {2.8, 2.8, 2.8});
-  const Volume oblique = head_volume(rotation({1 / std::sqrt(3.0), 1 / std::sqrt(3.0), -1 / std::sqrt(3.0)}, 0.6), {2.7, 2.8, 2.9});
+  const Volume oblique = head_volume(
+      rotation({1 / std::sqrt(3.0), 1 / std::sqrt(3.0), -1 / std::sqrt(3.0)}, 0.6), {2.7, 2.8, 2.9});
   const Volume flipped = head_volume({-1, 0, 0, 0, 0, 1, 0, -1, 0}, {2.8, 2.9, 2.7});
   const Volume left_handed = head_volume({1, 0, 0, 0, -1, 0, 0, 0, 1}, {2.8, 2.8, 2.8});
   for (const std::string extension : {".nii", ".nii.gz", ".nrrd", ".mha"}) {
@@ -140,8 +145,9 @@ TEST(Orientation, NiftiUnitsBecomeMillimetres) {
 
 Volume read_nrrd(const std::string& space) {
   const TempFolder folder;
-  write_bytes(folder / "a.nrrd", "NRRD0004\ntype: short\ndimension: 3\nsizes: 2 2 2\nendian: little\nencoding: raw\n" +
-                                     space + "\n" + voxels_2x2x2());
+  write_bytes(folder / "a.nrrd",
+              "NRRD0004\ntype: short\ndimension: 3\nsizes: 2 2 2\nendian: little\nencoding: raw\n" + space +
+                  "\n" + voxels_2x2x2());
   return read_volume(folder / "a.nrrd");
 }
 
@@ -178,8 +184,9 @@ TEST(Orientation, BadGeometryIsRefused) {
 }
 
 TEST(Orientation, SlightlySkewAxesAreStraightenedWithAWarning) {
-  const Volume volume =
-      read_nrrd("space: left-posterior-superior\nspace directions: (1,0,0) (0.003,1,0) (0,0,1)\nspace origin: (0,0,0)\n");
+  const Volume volume = read_nrrd(
+      "space: left-posterior-superior\nspace directions: (1,0,0) (0.003,1,0) (0,0,1)\nspace origin: "
+      "(0,0,0)\n");
   EXPECT_TRUE(warns(volume, "perpendicular"));
   const auto& d = volume.direction;
   for (int a = 0; a < 3; ++a) {

@@ -90,9 +90,11 @@ TEST(Raw, SizesThatDisagreeAreNamed) {
   write_bytes(folder / "a.raw", std::string(100, 'x'));
   expect_error(ErrorCode::kBadFormat, "expected 250 bytes (5x5x5 i16 voxels after offset 0), file has 100",
                [&] { read_raw_file(folder / "a.raw", "5x5x5,i16,1,1,1"); });
-  expect_error(ErrorCode::kBadFormat, "expected 104 bytes", [&] { read_raw_file(folder / "a.raw", "10x10x1,u8,1,1,1,4"); });
+  expect_error(ErrorCode::kBadFormat, "expected 104 bytes",
+               [&] { read_raw_file(folder / "a.raw", "10x10x1,u8,1,1,1,4"); });
   EXPECT_TRUE(warns(read_raw_file(folder / "a.raw", "3x3x3,u8,1,1,1"), "73 bytes more"));
-  expect_error(ErrorCode::kFileNotFound, "no such", [&] { read_raw_file(folder / "b.raw", "3x3x3,u8,1,1,1"); });
+  expect_error(ErrorCode::kFileNotFound, "no such",
+               [&] { read_raw_file(folder / "b.raw", "3x3x3,u8,1,1,1"); });
   expect_error(ErrorCode::kBadFormat, "not a file", [&] { read_raw_file(folder.path(), "3x3x3,u8,1,1,1"); });
   ReadOptions options;
   options.raw = RawSpec{};
@@ -105,14 +107,15 @@ TEST(Raw, MemoryLimitCounts) {
   ReadOptions options;
   options.raw = parse_raw_spec("10x10x10,u8,1,1,1");
   options.memory_limit_bytes = 999;
-  expect_error(ErrorCode::kOutOfMemory, "999 bytes is the limit given", [&] { read_volume(folder / "a.raw", options); });
+  expect_error(ErrorCode::kOutOfMemory, "999 bytes is the limit given",
+               [&] { read_volume(folder / "a.raw", options); });
   options.memory_limit_bytes = 1000;
   EXPECT_EQ(read_volume(folder / "a.raw", options).byte_count(), 1000u);
 }
 
 TEST(VoxelTypes, NamesAndBack) {
-  for (const VoxelType type : {VoxelType::kU8, VoxelType::kI8, VoxelType::kU16, VoxelType::kI16, VoxelType::kU32,
-                               VoxelType::kI32, VoxelType::kF32, VoxelType::kF64}) {
+  for (const VoxelType type : {VoxelType::kU8, VoxelType::kI8, VoxelType::kU16, VoxelType::kI16,
+                               VoxelType::kU32, VoxelType::kI32, VoxelType::kF32, VoxelType::kF64}) {
     EXPECT_EQ(parse_voxel_type(voxel_type_name(type)), type);
   }
   EXPECT_EQ(voxel_type_name(VoxelType::kI16), "i16");

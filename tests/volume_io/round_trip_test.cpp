@@ -13,9 +13,9 @@ struct Format {
 };
 
 constexpr Format kFormats[] = {
-    {"a.nrrd", true, true}, {"a.nhdr", true, true},   {"a.mha", true, true},  {"a.mhd", true, true},
-    {"a.nii", true, true},  {"a.nii.gz", true, true}, {"a.vtk", true, false}, {"a.h5", true, true},
-    {"a.tif", false, false},
+    {"a.nrrd", true, true}, {"a.nhdr", true, true}, {"a.mha", true, true},
+    {"a.mhd", true, true},  {"a.nii", true, true},  {"a.nii.gz", true, true},
+    {"a.vtk", true, false}, {"a.h5", true, true},   {"a.tif", false, false},
 };
 
 constexpr VoxelType kTypes[] = {VoxelType::kU8,  VoxelType::kI8,  VoxelType::kU16, VoxelType::kI16,
@@ -38,7 +38,8 @@ TEST_P(RoundTrip, KeepsVoxelsAndGeometry) {
   for (const std::string& warning : back.warnings) ADD_FAILURE() << warning;
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, RoundTrip, testing::Combine(testing::ValuesIn(kFormats), testing::ValuesIn(kTypes)),
+INSTANTIATE_TEST_SUITE_P(Formats, RoundTrip,
+                         testing::Combine(testing::ValuesIn(kFormats), testing::ValuesIn(kTypes)),
                          [](const auto& test) {
                            std::string name = std::get<0>(test.param).name;
                            for (char& c : name) c = c == '.' ? '_' : c;
@@ -83,9 +84,10 @@ TEST(RoundTrip, ModalityIsKeptWhereTheFormatHasAPlace) {
     write_volume(volume, folder / name);
     EXPECT_EQ(read_volume(folder / name).modality, "CT") << name;
   }
-  write_bytes(folder / "b.mha",
-              "ObjectType = Image\nNDims = 3\nDimSize = 2 1 1\nModality = MET_MOD_MR\nElementType = MET_UCHAR\n"
-              "ElementDataFile = LOCAL\nab");
+  write_bytes(
+      folder / "b.mha",
+      "ObjectType = Image\nNDims = 3\nDimSize = 2 1 1\nModality = MET_MOD_MR\nElementType = MET_UCHAR\n"
+      "ElementDataFile = LOCAL\nab");
   EXPECT_EQ(read_volume(folder / "b.mha").modality, "MR");
 }
 
@@ -113,7 +115,8 @@ TEST(RoundTrip, DetachedHeadersDoNotShareData) {
 
 TEST(RoundTrip, OneSliceAndOneVoxel) {
   const TempFolder folder;
-  for (const std::array<std::int64_t, 3> size : {std::array<std::int64_t, 3>{9, 8, 1}, {1, 1, 1}, {1, 6, 3}}) {
+  for (const std::array<std::int64_t, 3> size :
+       {std::array<std::int64_t, 3>{9, 8, 1}, {1, 1, 1}, {1, 6, 3}}) {
     const Volume volume = make_test_volume(VoxelType::kU16, size);
     for (const char* name : {"a.nrrd", "a.mha", "a.nii", "a.tif", "a.vtk", "a.h5"}) {
       write_volume(volume, folder / name);
@@ -127,7 +130,8 @@ TEST(WriteVolume, RefusesWhatItCannotWrite) {
   Volume volume = make_test_volume(VoxelType::kI16);
   expect_error(ErrorCode::kUnsupported, ".nii.gz", [&] { write_volume(volume, folder / "a.xyz"); });
   expect_error(ErrorCode::kUnsupported, ".nrrd", [&] { write_volume(volume, folder / "noextension"); });
-  expect_error(ErrorCode::kInternal, "cannot write", [&] { write_volume(volume, folder / "no/such/a.nrrd"); });
+  expect_error(ErrorCode::kInternal, "cannot write",
+               [&] { write_volume(volume, folder / "no/such/a.nrrd"); });
   volume.direction = {1, 0, 0, 0, -1, 0, 0, 0, 1};
   expect_error(ErrorCode::kUnsupported, "orientation", [&] { write_volume(volume, folder / "a.vtk"); });
   volume.voxels.reset();

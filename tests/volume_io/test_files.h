@@ -59,14 +59,22 @@ std::string bytes_of(const std::vector<T>& values) {
 template <typename Use>
 void with_type(VoxelType type, Use&& use) {
   switch (type) {
-    case VoxelType::kU8: return use(std::uint8_t{});
-    case VoxelType::kI8: return use(std::int8_t{});
-    case VoxelType::kU16: return use(std::uint16_t{});
-    case VoxelType::kI16: return use(std::int16_t{});
-    case VoxelType::kU32: return use(std::uint32_t{});
-    case VoxelType::kI32: return use(std::int32_t{});
-    case VoxelType::kF32: return use(float{});
-    case VoxelType::kF64: return use(double{});
+    case VoxelType::kU8:
+      return use(std::uint8_t{});
+    case VoxelType::kI8:
+      return use(std::int8_t{});
+    case VoxelType::kU16:
+      return use(std::uint16_t{});
+    case VoxelType::kI16:
+      return use(std::int16_t{});
+    case VoxelType::kU32:
+      return use(std::uint32_t{});
+    case VoxelType::kI32:
+      return use(std::int32_t{});
+    case VoxelType::kF32:
+      return use(float{});
+    case VoxelType::kF64:
+      return use(double{});
   }
 }
 
@@ -137,7 +145,8 @@ inline std::array<double, 3> p_world_of(const Volume& v, std::array<double, 3> p
 inline std::array<double, 3> p_index_of(const Volume& v, std::array<double, 3> p_world) {
   std::array<double, 3> p{};
   for (int a = 0; a < 3; ++a) {
-    for (int r = 0; r < 3; ++r) p[a] += v.direction[3 * r + a] * (p_world[r] - v.origin_mm[r]) / v.spacing_mm[a];
+    for (int r = 0; r < 3; ++r)
+      p[a] += v.direction[3 * r + a] * (p_world[r] - v.origin_mm[r]) / v.spacing_mm[a];
   }
   return p;
 }

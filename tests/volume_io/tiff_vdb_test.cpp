@@ -26,10 +26,13 @@ std::string tiff_page(int width, int height, const std::string& pixels, int bits
   add(277, 3, 1, static_cast<std::size_t>(samples));
   add(278, 3, 1, static_cast<std::size_t>(height));
   add(279, 4, 1, static_cast<std::size_t>(width * height * samples * bits / 8));
-  std::string bytes = std::string("II*\0", 4) + bytes_of<std::uint32_t>({static_cast<std::uint32_t>(description_at + description.size())}) +
-                      pixels + description + bytes_of<std::uint16_t>({static_cast<std::uint16_t>(tags.size())});
+  std::string bytes =
+      std::string("II*\0", 4) +
+      bytes_of<std::uint32_t>({static_cast<std::uint32_t>(description_at + description.size())}) + pixels +
+      description + bytes_of<std::uint16_t>({static_cast<std::uint16_t>(tags.size())});
   for (const auto& t : tags) {
-    bytes += bytes_of<std::uint16_t>({static_cast<std::uint16_t>(t[0]), static_cast<std::uint16_t>(t[1])}) + bytes_of<std::uint32_t>({t[2], t[3]});
+    bytes += bytes_of<std::uint16_t>({static_cast<std::uint16_t>(t[0]), static_cast<std::uint16_t>(t[1])}) +
+             bytes_of<std::uint32_t>({t[2], t[3]});
   }
   return bytes + std::string(4, '\0');
 }
@@ -37,7 +40,8 @@ std::string tiff_page(int width, int height, const std::string& pixels, int bits
 TEST(Tiff, FolderOfSlicesIsStackedInNaturalOrder) {
   const TempFolder folder;
   for (const int i : {1, 2, 9, 10, 11, 100}) {
-    write_bytes(folder / fmt::format("slice{}.tif", i), tiff_page(2, 1, std::string(2, static_cast<char>(i)), 8));
+    write_bytes(folder / fmt::format("slice{}.tif", i),
+                tiff_page(2, 1, std::string(2, static_cast<char>(i)), 8));
   }
   const Volume volume = read_volume(folder.path());
   EXPECT_EQ(volume.size, (std::array<std::int64_t, 3>{2, 1, 6}));
@@ -51,7 +55,8 @@ TEST(Tiff, SlicesMustAgree) {
   const TempFolder folder;
   write_bytes(folder / "a.tif", tiff_page(2, 1, "ab", 8));
   write_bytes(folder / "b.tif", tiff_page(1, 2, "ab", 8));
-  expect_error(ErrorCode::kBadFormat, "slice 1 is 1x2 u8; expected 2x1 u8", [&] { read_volume(folder.path()); });
+  expect_error(ErrorCode::kBadFormat, "slice 1 is 1x2 u8; expected 2x1 u8",
+               [&] { read_volume(folder.path()); });
 }
 
 TEST(Tiff, ColourAndOddDepthsAreRefused) {
@@ -65,15 +70,22 @@ TEST(Tiff, ColourAndOddDepthsAreRefused) {
 TEST(Tiff, ImageJStacksAndOmeSizesAreUnderstood) {
   const TempFolder folder;
   const std::string pixels = bytes_of<std::uint16_t>({1, 2, 3, 4, 5, 6});
-  write_bytes(folder / "a.tif", tiff_page(2, 1, pixels, 16, 1, std::string("ImageJ=1.53t\nimages=3\nslices=3\n") + '\0'));
+  write_bytes(folder / "a.tif",
+              tiff_page(2, 1, pixels, 16, 1, std::string("ImageJ=1.53t\nimages=3\nslices=3\n") + '\0'));
   const Volume stack = read_volume(folder / "a.tif");
   EXPECT_EQ(stack.size, (std::array<std::int64_t, 3>{2, 1, 3}));
   EXPECT_EQ(value_at(stack, 5), 6);
-  write_bytes(folder / "b.tif", tiff_page(2, 1, pixels, 16, 1, std::string("ImageJ=1.53t\nimages=6\nchannels=2\nframes=3\n") + '\0'));
-  expect_error(ErrorCode::kUnsupported, "2 channels and 3 time steps", [&] { read_volume(folder / "b.tif"); });
-  write_bytes(folder / "c.tif", tiff_page(2, 1, pixels, 16, 1, std::string("ImageJ=1.53t\nimages=900\nslices=900\n") + '\0'));
+  write_bytes(
+      folder / "b.tif",
+      tiff_page(2, 1, pixels, 16, 1, std::string("ImageJ=1.53t\nimages=6\nchannels=2\nframes=3\n") + '\0'));
+  expect_error(ErrorCode::kUnsupported, "2 channels and 3 time steps",
+               [&] { read_volume(folder / "b.tif"); });
+  write_bytes(folder / "c.tif",
+              tiff_page(2, 1, pixels, 16, 1, std::string("ImageJ=1.53t\nimages=900\nslices=900\n") + '\0'));
   expect_error(ErrorCode::kBadFormat, "promises 900 slices", [&] { read_volume(folder / "c.tif"); });
-  const std::string ome = "<OME><Pixels SizeC=\"1\" SizeT=\"1\" PhysicalSizeX=\"0.5\" PhysicalSizeY=\"0.25\" PhysicalSizeZ=\"2\"/></OME>";
+  const std::string ome =
+      "<OME><Pixels SizeC=\"1\" SizeT=\"1\" PhysicalSizeX=\"0.5\" PhysicalSizeY=\"0.25\" "
+      "PhysicalSizeZ=\"2\"/></OME>";
   write_bytes(folder / "d.tif", tiff_page(2, 1, pixels, 16, 1, ome + '\0'));
   const Volume placed = read_volume(folder / "d.tif");
   EXPECT_NEAR(placed.spacing_mm[0], 0.0005, 1e-12);
