@@ -12,7 +12,7 @@ void add_presets_command(CLI::App& program, Action& action) {
   command->callback([&action] {
     action = [] {
       for (const Preset& preset : presets()) {
-        fmt::print("{:<16} {}{}\n", preset.name, preset.summary, preset.hounsfield ? " [HU]" : "");
+        fmt::print("{:<16} {}\n", preset.name, preset.summary);
       }
       return kDone;
     };

@@ -31,10 +31,6 @@ MajorantView MajorantGrid::view() const {
   return view;
 }
 
-std::size_t MajorantGrid::byte_count() const {
-  return ranges_.ranges.size() * sizeof(ValueRange) + mu_maj_.size() * sizeof(float);
-}
-
 int default_macrocell_voxels(const GridView& grid) {
   return std::int64_t{grid.size[0]} * grid.size[1] * grid.size[2] <= (std::int64_t{1} << 24) ? 4 : 8;
 }

@@ -18,7 +18,6 @@ class MajorantGrid {
   void update(const TransferFunction& transfer);
 
   MajorantView view() const;
-  std::size_t byte_count() const;
 
  private:
   ValueRangeGrid ranges_;

@@ -17,8 +17,6 @@ struct Affine {
 
   constexpr Vec3<T> point(Vec3<T> p) const { return vector(p) + translation; }
   constexpr Vec3<T> vector(Vec3<T> v) const { return column_x * v.x + column_y * v.y + column_z * v.z; }
-  /// Transposed linear part applied to v: takes gradients of f(A p) from the image space back to p's space.
-  constexpr Vec3<T> transposed(Vec3<T> v) const { return {dot(column_x, v), dot(column_y, v), dot(column_z, v)}; }
 
   constexpr T determinant() const { return dot(column_x, cross(column_y, column_z)); }
   /// Requires determinant() != 0.

@@ -83,9 +83,9 @@ float gradient_percentile(const T* voxels, const GridView& grid, double fraction
     }
   });
   std::uint64_t total = 0, seen = 0;
-  for (const std::uint64_t c : counts) total += c;
+  for (int b = 1; b < kBins; ++b) total += counts[b];  // bin 0: no gradient
   const auto wanted = static_cast<std::uint64_t>(std::ceil(fraction * static_cast<double>(total)));
-  for (int b = 0; b < kBins; ++b) {
+  for (int b = 1; b < kBins; ++b) {
     seen += counts[b];
     if (counts[b] && seen >= wanted) return std::max(magnitude_of_bin(b), std::numeric_limits<float>::min());
   }

@@ -13,6 +13,8 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 /// Scatterings before Russian roulette may end an unlimited path.
 constexpr int kRouletteDepth = 4;
+/// Below 1, so that paths in matter that absorbs nothing end after some thousand scatterings.
+constexpr float kMaxSurvival = 0.999f;
 
 /// Veach's power heuristic (beta = 2) for a technique of density `pdf` beside one of density `other`.
 float power_heuristic(float pdf, float other) noexcept {
@@ -48,7 +50,7 @@ class PathTracer {
   Vec3f direct_light(const ScatterPoint& point, Vec3f p_world, Vec3f wo) noexcept;
   bool scatter(Path& path, const ScatterPoint& point, Vec3f p_world) noexcept;
   bool survives(Path& path, int depth) noexcept;
-  Vec3f background(float px, float py, float u0, float u1, Vec3f direction) const noexcept;
+  Vec3f background(float px, float py, Vec3f direction) noexcept;
 
   const SceneView& scene_;
   Rng& rng_;
@@ -121,21 +123,24 @@ bool PathTracer::scatter(Path& path, const ScatterPoint& point, Vec3f p_world) n
 /// Russian roulette for paths without a scattering limit.
 bool PathTracer::survives(Path& path, int depth) noexcept {
   if (scene_.max_scatter > 0 || depth < kRouletteDepth) return true;
-  const float probability = std::min(1.0f, max_component(path.throughput));
+  const float probability = std::min(kMaxSurvival, max_component(path.throughput));
   if (rng_.next() >= probability) return false;
   path.throughput *= 1.0f / probability;
   return true;
 }
 
-Vec3f PathTracer::background(float px, float py, float u0, float u1, Vec3f direction) const noexcept {
+/// What a camera ray that meets nothing sees.
+Vec3f PathTracer::background(float px, float py, Vec3f direction) noexcept {
   switch (scene_.background) {
     case BackgroundKind::kTransparent: return Vec3f(0);
     case BackgroundKind::kColor: return scene_.background_color;
     case BackgroundKind::kEnvironment: break;
   }
-  const Vec3f blurred =
-      scene_.camera.background_versine > 0 ? background_direction(scene_.camera, px, py, u0, u1) : direction;
-  return environment_hit(scene_.lights, blurred).radiance;
+  if (scene_.camera.background_versine > 0) {
+    const float u0 = rng_.next(), u1 = rng_.next();
+    direction = background_direction(scene_.camera, px, py, u0, u1);
+  }
+  return environment_hit(scene_.lights, direction).radiance;
 }
 
 PixelSample PathTracer::trace(float px, float py) noexcept {
@@ -147,7 +152,7 @@ PixelSample PathTracer::trace(float px, float py) noexcept {
     const Collision collision = fly(path);
     if (depth > 0) collect_emitters(path, collision);
     if (!collision.real) {
-      if (depth == 0) radiance_ = background(px, py, u_lens0, u_lens1, path.direction_world);
+      if (depth == 0) radiance_ = background(px, py, path.direction_world);
       break;
     }
     const Vec3f p_world = path.origin_world + path.direction_world * collision.t_mm;
@@ -182,7 +187,9 @@ PixelSample PathTracer::trace(float px, float py) noexcept {
 
 PixelSample trace_camera_sample(const SceneView& scene, int x, int y, std::uint32_t sample,
                                 TraceCounters& counters) noexcept {
-  Rng rng(scene.seed, scene.frame, static_cast<std::uint32_t>(y * scene.width + x), sample);
+  const std::uint32_t pixel = static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(scene.width) +
+                              static_cast<std::uint32_t>(x);
+  Rng rng(scene.seed, scene.frame, pixel, sample);
   const float px = x + 0.5f + sample_filter(scene.filter, scene.filter_radius_px, rng.next());
   const float py = y + 0.5f + sample_filter(scene.filter, scene.filter_radius_px, rng.next());
   ++counters.paths;

@@ -24,7 +24,7 @@ Vec3f face_normals(const Box3f& clip_world, const GridView& grid, Vec3f p_index,
     Vec3f axis(0);
     axis[a] = 1;
     const auto add = [&](float distance_mm, Vec3f outward) {
-      if (distance_mm < reach_mm) sum += outward * (1.0f - max(Vec3f(distance_mm), Vec3f(0)).x / reach_mm);
+      if (distance_mm < reach_mm) sum += outward * (1.0f - std::max(distance_mm, 0.0f) / reach_mm);
     };
     add(p_world[a] - clip_world.lower[a], -axis);
     add(clip_world.upper[a] - p_world[a], axis);
@@ -63,7 +63,7 @@ MatterPoint matter_at(const SceneView& scene, Vec3f p_index, float value) noexce
   scatter.p_brdf = scattering.shading == Shading::kBrdf
                        ? 1.0f
                        : surface_share(scattering.surface_share, scattering.gradient_factor,
-                                       scattering.opacity_modulated, optics.opacity, std::min(magnitude, 1.0f));
+                                       scattering.opacity_modulated, optics.opacity, magnitude);
   return point;
 }
 

@@ -1,11 +1,15 @@
 #include "scene/compile.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <cmath>
 
+#include "base/parallel.h"
 #include "camera/camera.h"
 #include "grid/grid_view.h"
 #include "image_io/image_io.h"
+#include "scene/recenter.h"
 #include "scene/resolve.h"
 #include "voxlume/error.h"
 #include "voxlume/volume_io.h"
@@ -37,6 +41,20 @@ void check_built(const RenderDescription& render) {
                 "\"" + render.denoise + "\" is not built yet; available: none");
 }
 
+/// Throws unless every finite voxel is a whole number (NaN counts as background).
+void check_whole_numbers(const GridView& grid, const std::string& path) {
+  std::atomic<bool> fractions{false};
+  with_voxels(grid.type, grid.voxels, [&](const auto* voxels) {
+    parallel_for(grid.size[2], 1, [&](std::int64_t k) {
+      for (std::int64_t i = k * grid.stride_k; i < (k + 1) * grid.stride_k; ++i) {
+        const auto v = static_cast<double>(voxels[i]);
+        if (std::isfinite(v) && v != std::floor(v)) fractions = true;
+      }
+    });
+  });
+  if (fractions) throw Error(ErrorCode::kBadFormat, path, "expected a label volume of whole numbers, found fractions");
+}
+
 LightSampling light_sampling(const std::string& name) {
   if (name == "mis") return LightSampling::kMis;
   if (name == "light") return LightSampling::kLight;
@@ -50,17 +68,19 @@ LightSampling light_sampling(const std::string& name) {
 CompiledScene::CompiledScene(SceneDescription description, Volume volume, const VolumeStatistics& statistics)
     : description_(std::move(description)),
       volume_(std::move(volume)),
+      origin_mm_(visible_sphere(volume_, std::nullopt).center_mm),
       transfer_(description_.transfer),
       majorants_(make_grid_view(volume_), macrocell_edge(description_.render, make_grid_view(volume_))) {
   check_built(description_.render);
-  compile_medium();
+  const SceneDescription local = moved_to_origin(description_, origin_mm_);
+  compile_medium(local);
   compile_scattering(statistics);
   compile_labels();
-  compile_lights_and_camera();
+  compile_lights_and_camera(local);
   compile_image();
 }
 
-void CompiledScene::compile_medium() {
+void CompiledScene::compile_medium(const SceneDescription& local) {
   const double voxel_depth = double{transfer_.max_mu_t()} * make_grid_view(volume_).step_mm;
   if (voxel_depth > kMaxVoxelDepth)
     throw Error(ErrorCode::kBadParameter, "/transfer",
@@ -69,10 +89,10 @@ void CompiledScene::compile_medium() {
   const auto start = std::chrono::steady_clock::now();
   majorants_.update(transfer_);
   majorant_build_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  view_.medium = {make_grid_view(volume_), transfer_.view(), majorants_.view()};
+  view_.medium = {make_grid_view(moved_to_origin(volume_, origin_mm_)), transfer_.view(), majorants_.view()};
   view_.domain_index = view_.medium.grid.index_box();
   view_.clip_world = {Vec3f(-1e30f), Vec3f(1e30f)};
-  if (const auto& clip = description_.clip) {
+  if (const auto& clip = local.clip) {
     view_.clip_world = {Vec3f(Vec3d(clip->x_mm[0], clip->y_mm[0], clip->z_mm[0])),
                         Vec3f(Vec3d(clip->x_mm[1], clip->y_mm[1], clip->z_mm[1]))};
     view_.clip_blocks_light = clip->blocks_light;
@@ -97,12 +117,9 @@ void CompiledScene::compile_labels() {
   const LabelsDescription& labels = *description_.labels;
   label_volume_ = read_volume(labels.path);
   warnings_.insert(warnings_.end(), label_volume_->warnings.begin(), label_volume_->warnings.end());
-  const GridView grid = make_grid_view(*label_volume_);
+  const GridView grid = make_grid_view(moved_to_origin(*label_volume_, origin_mm_));
   const VolumeStatistics statistics = compute_statistics(grid);
-  const bool integer = label_volume_->type != VoxelType::kF32 && label_volume_->type != VoxelType::kF64;
-  if (!integer && std::any_of(statistics.histogram.begin(), statistics.histogram.end(),
-                              [](const auto& bin) { return bin.first != std::floor(bin.first); }))
-    throw Error(ErrorCode::kBadFormat, labels.path, "expected a label volume of whole numbers, found fractions");
+  check_whole_numbers(grid, labels.path);
   if (statistics.upper > static_cast<float>(kMaxLabel))
     throw Error(ErrorCode::kBadFormat, labels.path,
                 "expected labels up to " + std::to_string(kMaxLabel) + ", found " + std::to_string(statistics.upper));
@@ -112,16 +129,16 @@ void CompiledScene::compile_labels() {
                   static_cast<float>(labels.strength)};
 }
 
-void CompiledScene::compile_lights_and_camera() {
-  const BoundingSphere sphere = visible_sphere(volume_, description_.clip);
+void CompiledScene::compile_lights_and_camera(const SceneDescription& local) {
+  const BoundingSphere sphere = visible_sphere(moved_to_origin(volume_, origin_mm_), local.clip);
   const Vec3f center(Vec3d(sphere.center_mm[0], sphere.center_mm[1], sphere.center_mm[2]));
   const auto radius = static_cast<float>(sphere.radius_mm);
-  view_.camera = compile_camera(description_.camera, center, radius, description_.image.width, description_.image.height);
+  view_.camera = compile_camera(local.camera, center, radius, local.image.width, local.image.height);
 
-  const EnvironmentDescription& environment = *description_.environment;
+  const EnvironmentDescription& environment = *local.environment;
   std::optional<EnvironmentImage> picture;
   if (!environment.image.empty()) picture = read_environment(environment.image);
-  lights_.emplace(*description_.lights, environment, picture ? &*picture : nullptr, view_frame(view_.camera),
+  lights_.emplace(*local.lights, environment, picture ? &*picture : nullptr, view_frame(view_.camera),
                   SceneSphere{center, radius});
   view_.lights = lights_->view();
   if (environment.ambient) view_.ambient = lights_->mean_environment_radiance();

@@ -14,7 +14,8 @@
 
 namespace voxlume {
 
-/// A scene ready to trace: owns the voxels and every table that view() points to. Immutable.
+/// A scene ready to trace: owns the voxels and every table that view() points to. Immutable. World coordinates of
+/// view() are LPS mm from the volume's centre.
 class CompiledScene {
  public:
   /// `description` is resolved (scene/resolve.h); reads its environment picture and label volume.
@@ -31,18 +32,16 @@ class CompiledScene {
   const std::vector<std::string>& warnings() const { return warnings_; }
 
   double majorant_build_ms() const { return majorant_build_ms_; }
-  /// Bytes of accelerator and tables beside the voxels.
-  std::size_t table_bytes() const { return majorants_.byte_count(); }
-
  private:
-  void compile_medium();
+  void compile_medium(const SceneDescription& local);
   void compile_scattering(const VolumeStatistics& statistics);
   void compile_labels();
-  void compile_lights_and_camera();
+  void compile_lights_and_camera(const SceneDescription& local);
   void compile_image();
 
   SceneDescription description_;
   Volume volume_;
+  Double3 origin_mm_;  ///< LPS place of the kernels' origin: the volume's centre
   std::optional<Volume> label_volume_;
   std::optional<LabelTable> label_table_;
   std::vector<std::string> warnings_;

@@ -43,6 +43,7 @@ void visit_fields(V&& visit, Struct<TransferPoint>) {
   visit({.key = "value",
          .doc = "Data value in the file's own units (HU, intensity). Points are sorted by it; two at one "
                 "value are a step.",
+         .range = between(-3e38, 3e38),
          .required = true},
         &T::value);
   visit({.key = "opacity",

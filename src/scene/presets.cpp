@@ -88,12 +88,12 @@ double otsu_threshold(const VolumeStatistics& statistics) {
 
 const std::vector<Preset>& presets() {
   static const std::vector<Preset> all = {
-      {"ct-bone", "CT: bone and teeth, soft tissue removed", true, ct_bone},
-      {"ct-skin", "CT: the skin, opaque", true, ct_skin},
-      {"ct-muscle-bone", "CT: bone inside translucent muscle", true, ct_muscle_bone},
-      {"mri-head", "MR: head or brain against air, thresholds from the data", false, mri_head},
-      {"fog", "any data as thin white smoke, denser where the value is higher", false, fog},
-      {"generic", "any data: background removed, blue to ivory with the value", false, generic},
+      {"ct-bone", "CT (HU): bone and teeth, soft tissue removed", ct_bone},
+      {"ct-skin", "CT (HU): the skin, opaque", ct_skin},
+      {"ct-muscle-bone", "CT (HU): bone inside translucent muscle", ct_muscle_bone},
+      {"mri-head", "MR: head or brain against air, thresholds from the data", mri_head},
+      {"fog", "any data as thin white smoke, denser where the value is higher", fog},
+      {"generic", "any data: background removed, blue to ivory with the value", generic},
   };
   return all;
 }
@@ -111,15 +111,19 @@ const Preset& find_preset(std::string_view name) {
                   (near.empty() ? "; expected one of " + list : "; did you mean \"" + near + "\"?"));
 }
 
-const Preset& automatic_preset(const Volume& volume, const VolumeStatistics& statistics) {
+bool is_hounsfield(const Volume& volume, const VolumeStatistics& statistics) {
   const bool air = statistics.lower <= -900 && statistics.lower >= -4096 && statistics.upper >= 300;
-  if (volume.modality == "CT" || (volume.modality.empty() && air)) return find_preset("ct-bone");
+  return volume.modality == "CT" || (volume.modality.empty() && air);
+}
+
+const Preset& automatic_preset(const Volume& volume, const VolumeStatistics& statistics) {
+  if (is_hounsfield(volume, statistics)) return find_preset("ct-bone");
   if (volume.modality == "MR" || volume.format == "NIfTI") return find_preset("mri-head");
   return find_preset("generic");
 }
 
-double default_reference_length_mm(const Preset& preset, const Volume& volume) {
-  if (preset.hounsfield) return 1;
+double default_reference_length_mm(const Volume& volume, const VolumeStatistics& statistics) {
+  if (is_hounsfield(volume, statistics)) return 1;
   double longest = 0;
   for (int a = 0; a < 3; ++a) longest = std::max(longest, static_cast<double>(volume.size[a]) * volume.spacing_mm[a]);
   return longest / 256;

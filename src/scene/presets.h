@@ -13,7 +13,6 @@ namespace voxlume {
 struct Preset {
   std::string_view name;
   std::string_view summary;  ///< one line for `voxlume presets`
-  bool hounsfield;           ///< written in HU
   std::vector<TransferPoint> (*points)(const VolumeStatistics&);
 };
 
@@ -23,13 +22,15 @@ const std::vector<Preset>& presets();
 /// Throws Error kBadParameter, naming the nearest preset, when there is none of that name.
 const Preset& find_preset(std::string_view name);
 
-/// The preset used when none is named: ct-bone for data in HU (modality CT, or signed with air near -1000), mri-head
-/// for MR and NIfTI, else generic.
+/// The preset used when none is named: ct-bone for data in HU, mri-head for MR and NIfTI, else generic.
 const Preset& automatic_preset(const Volume& volume, const VolumeStatistics& statistics);
 
-/// The reference length opacities are drawn for when none is given [mm]: 1 for HU presets, else 1/256 of the
-/// volume's longest side.
-double default_reference_length_mm(const Preset& preset, const Volume& volume);
+/// Whether the data is in Hounsfield units: its file says CT, or it says nothing and has air near -1000.
+bool is_hounsfield(const Volume& volume, const VolumeStatistics& statistics);
+
+/// The reference length opacities are drawn for when none is given [mm]: 1 for CT, else 1/256 of the volume's longest
+/// side.
+double default_reference_length_mm(const Volume& volume, const VolumeStatistics& statistics);
 
 /// Otsu's threshold between background and matter: maximises the between-class variance of the histogram.
 double otsu_threshold(const VolumeStatistics& statistics);

@@ -82,7 +82,7 @@ SceneDescription resolve(const SceneDescription& scene, const Volume& volume, co
     transfer.points = preset.points(statistics);
     transfer.preset = preset.name;
   }
-  if (!transfer.reference_length_mm) transfer.reference_length_mm = default_reference_length_mm(preset, volume);
+  if (!transfer.reference_length_mm) transfer.reference_length_mm = default_reference_length_mm(volume, statistics);
 
   const BoundingSphere sphere = visible_sphere(volume, scene.clip);
   if (!out.lights) out.lights = default_lights(sphere.radius_mm);

@@ -61,7 +61,7 @@ void limit(int resource, std::uint64_t value) {
 }
 
 std::uint64_t cpu_limit_seconds(std::uint64_t bytes) {
-  constexpr std::uint64_t kBase = 120;
+  constexpr std::uint64_t kBase = 20;
   constexpr std::uint64_t kBytesPerSecond = 1 << 20;  // far slower than any decoder
   return kBase + bytes / kBytesPerSecond;
 }

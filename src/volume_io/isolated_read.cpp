@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/mman.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -15,6 +15,7 @@
 #include <mutex>
 
 #include "volume_io/child_limits.h"
+#include "volume_io/child_watch.h"
 #include "volume_io/fail.h"
 #include "volume_io/memory_limit.h"
 #include "volume_io/read_result.h"
@@ -27,17 +28,15 @@ namespace {
 class Descriptor {
  public:
   explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor() { reset(); }
+  ~Descriptor() {
+    if (number_ >= 0) close(number_);
+  }
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
   int get() const { return number_; }
-  void reset() {
-    if (number_ >= 0) close(number_);
-    number_ = -1;
-  }
 
  private:
-  int number_;
+  const int number_;
 };
 
 void write_all(int to, std::string_view text) {
@@ -78,23 +77,24 @@ struct ChildOutcome {
   std::string line;
   int status = 0;  ///< as waitpid gives it; 0 when the child cannot be waited for
   bool timed_out = false;
+  bool deadlocked = false;  ///< on a lock another thread held when it was forked: worth another try
 };
 
 /// Reads what the child says until it closes the pipe, then waits for its end.
 ChildOutcome await_child(pid_t child, int result, std::chrono::seconds limit) {
+  constexpr int kWatchMilliseconds = 1000;
   ChildOutcome outcome;
+  DeadlockWatch watch(child);
   const auto deadline = std::chrono::steady_clock::now() + limit;
   char text[4096];
   for (;;) {
-    const auto left =
-        std::chrono::duration_cast<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now())
-            .count();
     pollfd waiting{result, POLLIN, 0};
-    const int ready =
-        left > 0 ? poll(&waiting, 1, static_cast<int>(std::min<long long>(left, 1'000'000'000))) : 0;
+    const int ready = poll(&waiting, 1, kWatchMilliseconds);
     if (ready < 0 && errno == EINTR) continue;
     if (ready <= 0) {
-      outcome.timed_out = true;
+      outcome.deadlocked = watch.is_deadlocked();
+      outcome.timed_out = std::chrono::steady_clock::now() > deadline;
+      if (!outcome.deadlocked && !outcome.timed_out) continue;
       kill(child, SIGKILL);
       break;
     }
@@ -127,9 +127,32 @@ ChildOutcome await_child(pid_t child, int result, std::chrono::seconds limit) {
 }
 
 std::shared_ptr<const void> map_result(const std::filesystem::path& path, int voxel_file, std::size_t bytes) {
-  void* start = mmap(nullptr, bytes, PROT_READ, MAP_SHARED, voxel_file, 0);
+  // Narrowed integers leave the second half unused.
+  const bool is_cut = ftruncate(voxel_file, static_cast<off_t>(bytes)) == 0;
+  void* start = is_cut ? mmap(nullptr, bytes, PROT_READ, MAP_SHARED, voxel_file, 0) : MAP_FAILED;
   if (start == MAP_FAILED) fail(ErrorCode::kOutOfMemory, path, fmt::format("cannot map {} bytes", bytes));
   return {start, [bytes](const void* p) { munmap(const_cast<void*>(p), bytes); }};
+}
+
+/// Forks a child that reads into `voxel_file` and waits for it.
+ChildOutcome read_in_child(const std::filesystem::path& path, const ReadOptions& options, int voxel_file) {
+  const std::chrono::seconds limit(wall_limit_seconds(path));
+  int ends[2] = {-1, -1};
+  pid_t child = -1;
+  int reason = 0;
+  {
+    // The pipe lives within the lock too: another child that held its writing end would keep it open.
+    const std::unique_lock lock(library_mutex());
+    if (voxel_file >= 0 && pipe2(ends, O_CLOEXEC) == 0) child = fork();
+    if (child == 0) run_child(path, options, voxel_file, ends[1]);
+    reason = errno;
+    const Descriptor to_parent(ends[1]);
+  }
+  const Descriptor from_child(ends[0]);
+  if (child < 0) {
+    fail(ErrorCode::kInternal, path, fmt::format("cannot start the reader: {}", std::strerror(reason)));
+  }
+  return await_child(child, from_child.get(), limit);
 }
 
 }  // namespace
@@ -140,28 +163,16 @@ std::shared_mutex& library_mutex() {
 }
 
 Volume read_isolated(const std::filesystem::path& path, const ReadOptions& options) {
-  const Descriptor voxel_file(memfd_create("voxlume-voxels", MFD_CLOEXEC));
-  int ends[2];
-  if (voxel_file.get() < 0 || pipe2(ends, O_CLOEXEC) != 0) {
-    fail(ErrorCode::kInternal, path, fmt::format("cannot start the reader: {}", std::strerror(errno)));
+  constexpr int kMaxTries = 5;
+  for (int tries = 1;; ++tries) {
+    const Descriptor voxel_file(memfd_create("voxlume-voxels", MFD_CLOEXEC));
+    const ChildOutcome outcome = read_in_child(path, options, voxel_file.get());
+    if (outcome.deadlocked && tries < kMaxTries) continue;
+    if (outcome.timed_out || outcome.status != 0 || outcome.line.empty()) fail_child(path, outcome);
+    Volume volume = decode_result(outcome.line);
+    volume.voxels = map_result(path, voxel_file.get(), volume.byte_count());
+    return volume;
   }
-  const Descriptor from_child(ends[0]);
-  Descriptor to_parent(ends[1]);
-  const std::chrono::seconds limit(wall_limit_seconds(path));
-  pid_t child = -1;
-  {
-    const std::unique_lock lock(library_mutex());
-    child = fork();
-  }
-  if (child < 0)
-    fail(ErrorCode::kInternal, path, fmt::format("cannot start the reader: {}", std::strerror(errno)));
-  if (child == 0) run_child(path, options, voxel_file.get(), to_parent.get());
-  to_parent.reset();
-  const ChildOutcome outcome = await_child(child, from_child.get(), limit);
-  if (outcome.timed_out || outcome.status != 0 || outcome.line.empty()) fail_child(path, outcome);
-  Volume volume = decode_result(outcome.line);
-  volume.voxels = map_result(path, voxel_file.get(), volume.byte_count());
-  return volume;
 }
 
 Volume read_in_process(const std::filesystem::path& path, const ReadOptions& options) {

@@ -160,7 +160,6 @@ TEST(Majorants, SizesAndDefaults) {
   EXPECT_EQ(majorants.view().cells[0], 4);
   EXPECT_EQ(majorants.view().cells[1], 1);
   EXPECT_EQ(majorants.view().cells[2], 1);
-  EXPECT_EQ(majorants.byte_count(), 4u * 12u);
   EXPECT_EQ(default_macrocell_voxels(grid), 4);
   GridView large = grid;
   large.size[0] = large.size[1] = 2048;

@@ -81,8 +81,11 @@ TEST(Presets, AreChosenFromTheData) {
 }
 
 TEST(Presets, ReferenceLengthIsAMillimetreForCtAndAShareOfTheVolumeElsewhere) {
-  EXPECT_EQ(default_reference_length_mm(find_preset("ct-bone"), tiny("", "")), 1);
-  EXPECT_EQ(default_reference_length_mm(find_preset("generic"), tiny("", "")), 200.0 / 256);
+  const VolumeStatistics ct = statistics_of({{-1024, 500}, {40, 300}, {2000, 3}});
+  const VolumeStatistics bytes = statistics_of({{0, 500}, {100, 300}, {255, 3}});
+  EXPECT_EQ(default_reference_length_mm(tiny("CT", ""), bytes), 1);
+  EXPECT_EQ(default_reference_length_mm(tiny("", ""), ct), 1);
+  EXPECT_EQ(default_reference_length_mm(tiny("", ""), bytes), 200.0 / 256);
 }
 
 TEST(Presets, OtsuSeparatesTwoClasses) {
