@@ -4,7 +4,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 out=out/gallery size=640x640 spp=256
-if [ "${1:-}" = --docs ]; then out=docs/pictures size=360x360 spp=400; fi
+if [ "${1:-}" = --docs ]; then out=docs/pictures size=340x340 spp=350; fi
 mkdir -p "$out"
 
 picture() {  # picture NAME INPUT options...
@@ -23,3 +23,5 @@ picture generic $mri --preset generic --camera 25,10,1.3
 picture labels data/mri-brain.nii.gz --preset mri-head --labels data/aal.nii.gz --camera 60,25,1.6
 picture clip $ct --preset ct-muscle-bone --clip :,:,:10 --camera 20,50,1.4
 picture environment $ct --preset ct-skin --env data/env/sunset.exr --background env --camera 25,5,1.4
+if [ "$out" = docs/pictures ]; then size=720x480; fi
+picture hero $ct --preset ct-muscle-bone --camera 35,12,1.5

@@ -8,8 +8,10 @@
 #include "cli/scene_flags.h"
 #include "cli/terminal.h"
 #include "grid/volume_statistics.h"
+#include "scene/labels.h"
 #include "scene/open_volume.h"
 #include "scene/validate.h"
+#include "voxlume/error.h"
 
 namespace voxlume::cli {
 namespace {
@@ -39,6 +41,24 @@ std::size_t render_bytes(const Volume& volume, const GridView& grid) {
   return volume.byte_count() + cells * 3 * sizeof(float);
 }
 
+/// Value, name and voxel count of every label that the files beside the volume name; empty where there are none.
+Json named_labels(const Volume& volume, const VolumeStatistics& statistics, const std::string& path) {
+  Json labels = Json::array();
+  constexpr float kMaxLabel = 65535;  // the histogram counts single values up to here
+  if (voxel_bytes(volume.type) > 2 || !(statistics.upper >= 1 && statistics.upper <= kMaxLabel)) return labels;
+  LabelTable table;
+  try {
+    table = read_label_table(path, {}, static_cast<std::size_t>(statistics.upper) + 1);
+  } catch (const Error&) {
+    return labels;  // a text beside the volume that is about something else
+  }
+  for (const auto& [value, count] : statistics.histogram) {
+    if (value < 0 || table.names[static_cast<std::size_t>(value)].empty()) continue;
+    labels.push_back({{"value", value}, {"name", table.names[static_cast<std::size_t>(value)]}, {"voxels", count}});
+  }
+  return labels;
+}
+
 Json describe(const Volume& volume, const std::string& path) {
   const GridView grid = make_grid_view(volume);
   const VolumeStatistics statistics = compute_statistics(grid);
@@ -61,6 +81,7 @@ Json describe(const Volume& volume, const std::string& path) {
           {"percentiles", percentiles},
           {"bytes", volume.byte_count()},
           {"render_bytes", render_bytes(volume, grid)},
+          {"labels", named_labels(volume, statistics, path)},
           {"warnings", volume.warnings}};
 }
 
@@ -98,6 +119,13 @@ void print_table(const Json& info) {
   for (const auto& [percent, value] : info["percentiles"].items()) {
     line(percent == "0.1" ? "percentiles" : "", fmt::format("{:>5} %  {:.6g}", percent, value.get<double>()));
   }
+  constexpr std::size_t kShownLabels = 12;
+  for (std::size_t i = 0; i < std::min(info["labels"].size(), kShownLabels); ++i) {
+    const Json& label = info["labels"][i];
+    line(i == 0 ? "labels" : "", fmt::format("{:>5}  {}", label["value"].get<double>(), label["name"].get<std::string>()));
+  }
+  if (info["labels"].size() > kShownLabels)
+    line("", fmt::format("... {} in all; --json lists them", info["labels"].size()));
   line("memory", mebibytes("bytes") + " voxels, " + mebibytes("render_bytes") + " to render");
 }
 

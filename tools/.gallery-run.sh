@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# Renders every preset into out/gallery/, or, with --docs, the smaller pictures of the documentation into docs/pictures/.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+out=out/gallery size=640x640 spp=256
+if [ "${1:-}" = --docs ]; then out=docs/pictures size=340x340 spp=350; fi
+mkdir -p "$out"
+
+picture() {  # picture NAME INPUT options...
+  local name=$1 input=$2; shift 2
+  printf 'gallery: %s\n' "$out/$name.png" >&2
+  /tmp/vox/voxlume-docs render "$input" -o "$out/$name.png" --size $size --spp $spp "$@"
+}
+
+ct=data/head-ct.nrrd mri=data/mri-head.nii.gz
+picture ct-bone $ct --preset ct-bone --camera 25,10,1.4
+picture ct-skin $ct --preset ct-skin --camera 25,10,1.4
+picture ct-muscle-bone $ct --preset ct-muscle-bone --camera 25,10,1.4
+picture fog $ct --preset fog --camera 25,10,1.4
+picture mri-head $mri --preset mri-head --camera 25,10,1.3
+picture generic $mri --preset generic --camera 25,10,1.3
+picture labels data/mri-brain.nii.gz --preset mri-head --labels data/aal.nii.gz --camera 60,25,1.6
+picture clip $ct --preset ct-muscle-bone --clip :,:,:10 --camera 20,50,1.4
+picture environment $ct --preset ct-skin --env data/env/sunset.exr --background env --camera 25,5,1.4
+if [ "$out" = docs/pictures ]; then size=720x480; fi
+picture hero $ct --preset ct-muscle-bone --camera 35,12,1.5
