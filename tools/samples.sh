@@ -10,12 +10,14 @@ updated=
 
 package() {  # package NAME FILE: makes sure that FILE of package NAME is on the machine
   [ -e "$2" ] && return 0
+  local failed=data/.no-$1  # a package that cannot be had is asked for once a day
+  [ -n "$(find "$failed" -mmin -1440 2>/dev/null)" ] && { say "package $1 cannot be had (remove $failed to try again)"; return 1; }
   command -v apt-get >/dev/null || { say "missing: $2, of Debian's package $1"; return 1; }
   say "installing $1"
   [ -n "$updated" ] || root apt-get update >/dev/null 2>&1 || true
   updated=yes
   DEBIAN_FRONTEND=noninteractive root apt-get install -y --no-install-recommends "$1" >/dev/null 2>&1 </dev/null || true
-  [ -e "$2" ] || { say "package $1 cannot be had"; return 1; }
+  [ -e "$2" ] || { touch "$failed"; say "package $1 cannot be had"; return 1; }
 }
 
 head_ct() {

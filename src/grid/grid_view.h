@@ -5,6 +5,7 @@
 
 #include "base/affine.h"
 #include "base/box.h"
+#include "base/voxel_type.h"
 #include "voxlume/volume.h"
 
 namespace voxlume {
@@ -30,17 +31,7 @@ struct GridView {
 /// Calls f with a typed pointer to the voxels.
 template <class F>
 auto with_voxels(VoxelType type, const void* voxels, F&& f) {
-  switch (type) {
-    case VoxelType::kU8: return f(static_cast<const std::uint8_t*>(voxels));
-    case VoxelType::kI8: return f(static_cast<const std::int8_t*>(voxels));
-    case VoxelType::kU16: return f(static_cast<const std::uint16_t*>(voxels));
-    case VoxelType::kI16: return f(static_cast<const std::int16_t*>(voxels));
-    case VoxelType::kU32: return f(static_cast<const std::uint32_t*>(voxels));
-    case VoxelType::kI32: return f(static_cast<const std::int32_t*>(voxels));
-    case VoxelType::kF32: return f(static_cast<const float*>(voxels));
-    case VoxelType::kF64: break;
-  }
-  return f(static_cast<const double*>(voxels));
+  return with_voxel_type(type, [&](auto value) { return f(static_cast<const decltype(value)*>(voxels)); });
 }
 
 /// Builds the view of `volume`, which must outlive it.

@@ -8,7 +8,7 @@
 #include "image_io/image_io.h"
 #include "image_io/picture_check.h"
 #include "image_io/png_read.h"
-#include "volume_io/fail.h"
+#include "base/fail.h"
 
 namespace voxlume {
 namespace {

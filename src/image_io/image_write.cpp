@@ -8,7 +8,7 @@
 
 #include "base/atomic_file.h"
 #include "image_io/image_io.h"
-#include "volume_io/fail.h"
+#include "base/fail.h"
 #include "voxlume/error.h"
 
 namespace voxlume {

@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include "volume_io/fail.h"
-#include "volume_io/memory_limit.h"
+#include "base/fail.h"
+#include "base/memory.h"
 
 namespace voxlume {
 namespace {

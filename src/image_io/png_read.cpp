@@ -10,7 +10,7 @@
 
 #include "image_io/picture_check.h"
 #include "tonemap/srgb.h"
-#include "volume_io/fail.h"
+#include "base/fail.h"
 
 namespace voxlume {
 namespace {

@@ -193,7 +193,7 @@ TransferFunction::TransferFunction(const TransferDescription& d) {
   }
 }
 
-const TransferView TransferFunction::view() const {
+TransferView TransferFunction::view() const {
   TransferView view;
   view.pieces = pieces_.data();
   view.piece_count = static_cast<std::int32_t>(pieces_.size());

@@ -16,7 +16,7 @@ class TransferFunction {
   /// Throws Error kBadParameter with the JSON path of what is wrong.
   explicit TransferFunction(const TransferDescription& description);
 
-  const TransferView view() const;
+  TransferView view() const;
 
   /// The supremum of mu_t over the closed range of data values [lower, upper], exact, in O(log n).
   float max_mu_t(float lower, float upper) const;

@@ -10,7 +10,7 @@
 #include <cstring>
 #include <fstream>
 
-#include "volume_io/memory_limit.h"
+#include "base/memory.h"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define VOXLUME_SANITIZED 1

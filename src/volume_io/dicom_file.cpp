@@ -11,7 +11,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "volume_io/fail.h"
+#include "base/fail.h"
 
 namespace voxlume {
 namespace {

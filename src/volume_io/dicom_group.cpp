@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "volume_io/fail.h"
+#include "base/fail.h"
 
 namespace voxlume {
 namespace {

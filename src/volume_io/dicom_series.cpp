@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "volume_io/dicom_group.h"
-#include "volume_io/fail.h"
+#include "base/fail.h"
 #include "volume_io/slice_order.h"
 #include "volume_io/voxel_convert.h"
 

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "volume_io/fail.h"
+#include "base/fail.h"
 
 namespace voxlume {
 namespace {

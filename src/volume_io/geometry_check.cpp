@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "volume_io/fail.h"
+#include "base/fail.h"
 
 namespace voxlume {
 namespace {

@@ -16,7 +16,7 @@
 
 #include "volume_io/child_limits.h"
 #include "volume_io/child_watch.h"
-#include "volume_io/fail.h"
+#include "base/fail.h"
 #include "volume_io/memory_limit.h"
 #include "volume_io/read_result.h"
 #include "volume_io/staged_read.h"

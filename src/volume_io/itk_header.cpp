@@ -5,7 +5,8 @@
 
 #include <algorithm>
 
-#include "volume_io/fail.h"
+#include "base/fail.h"
+#include "volume_io/library_message.h"
 
 namespace voxlume {
 namespace {

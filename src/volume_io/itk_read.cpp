@@ -2,7 +2,7 @@
 
 #include <itkHDF5ImageIO.h>
 
-#include "volume_io/fail.h"
+#include "base/fail.h"
 #include "volume_io/file_format.h"
 #include "volume_io/itk_header.h"
 

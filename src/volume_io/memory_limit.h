@@ -7,9 +7,6 @@
 
 namespace voxlume {
 
-/// Bytes this process may still take: the least of what the machine and its control group have left.
-std::uint64_t available_memory_bytes();
-
 /// Throws Error kOutOfMemory when `bytes` exceeds `limit_bytes`, or what the machine has available when the
 /// limit is 0. The message names size, type and both numbers.
 void check_memory(const std::filesystem::path& path, const Volume& volume, std::uint64_t bytes,

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <string>
 
-#include "volume_io/fail.h"
+#include "base/fail.h"
 #include "volume_io/file_format.h"
 #include "volume_io/itk_header.h"
 #include "volume_io/itk_read.h"

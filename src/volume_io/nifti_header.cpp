@@ -6,7 +6,7 @@
 #include <cstring>
 #include <vector>
 
-#include "volume_io/fail.h"
+#include "base/fail.h"
 #include "volume_io/geometry_check.h"
 #include "volume_io/voxel_stream.h"
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "volume_io/fail.h"
+#include "base/fail.h"
 #include "volume_io/file_format.h"
 #include "volume_io/nifti_header.h"
 #include "volume_io/voxel_convert.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "volume_io/fail.h"
+#include "base/fail.h"
 #include "volume_io/geometry_check.h"
 
 namespace voxlume {

@@ -8,7 +8,7 @@
 #include <bit>
 #include <cmath>
 
-#include "volume_io/fail.h"
+#include "base/fail.h"
 #include "volume_io/memory_limit.h"
 #include "volume_io/voxel_stream.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "volume_io/fail.h"
+#include "base/fail.h"
 #include "voxlume/volume_io.h"
 
 namespace voxlume {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "volume_io/fail.h"
+#include "base/fail.h"
 #include "volume_io/isolated_read.h"
 #include "volume_io/raw_read.h"
 #include "voxlume/volume_io.h"

@@ -5,7 +5,8 @@
 #include <exception>
 #include <new>
 
-#include "volume_io/fail.h"
+#include "base/fail.h"
+#include "volume_io/library_message.h"
 #include "volume_io/geometry_check.h"
 #include "volume_io/memory_limit.h"
 #include "volume_io/volume_reader.h"

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <vector>
 
-#include "volume_io/fail.h"
+#include "base/fail.h"
 
 namespace voxlume {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "volume_io/fail.h"
+#include "base/fail.h"
 #include "volume_io/tiff_file.h"
 #include "volume_io/voxel_stream.h"
 

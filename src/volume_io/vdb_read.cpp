@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "volume_io/fail.h"
+#include "base/fail.h"
 #include "volume_io/file_format.h"
 
 #ifdef VOXLUME_WITH_VDB

@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "volume_io/fail.h"
+#include "base/fail.h"
 
 namespace voxlume {
 namespace {

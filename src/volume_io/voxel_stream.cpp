@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "volume_io/fail.h"
+#include "base/fail.h"
 
 namespace voxlume {
 namespace {

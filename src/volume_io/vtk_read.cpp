@@ -7,7 +7,7 @@
 #include <sstream>
 #include <string>
 
-#include "volume_io/fail.h"
+#include "base/fail.h"
 #include "volume_io/file_format.h"
 #include "volume_io/itk_header.h"
 #include "volume_io/itk_read.h"

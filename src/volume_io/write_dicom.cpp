@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "volume_io/fail.h"
+#include "base/fail.h"
 #include "volume_io/volume_writers.h"
 #include "volume_io/voxel_convert.h"
 

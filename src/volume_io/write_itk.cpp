@@ -8,7 +8,8 @@
 
 #include <cmath>
 
-#include "volume_io/fail.h"
+#include "base/fail.h"
+#include "volume_io/library_message.h"
 #include "volume_io/volume_writers.h"
 
 namespace voxlume {

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "volume_io/fail.h"
+#include "base/fail.h"
 #include "volume_io/tiff_file.h"
 #include "volume_io/volume_writers.h"
 

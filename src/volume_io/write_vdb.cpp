@@ -1,4 +1,5 @@
-#include "volume_io/fail.h"
+#include "base/fail.h"
+#include "volume_io/library_message.h"
 #include "volume_io/volume_writers.h"
 
 #ifdef VOXLUME_WITH_VDB

@@ -6,7 +6,8 @@
 #include <shared_mutex>
 #include <vector>
 
-#include "volume_io/fail.h"
+#include "base/fail.h"
+#include "volume_io/library_message.h"
 #include "volume_io/file_format.h"
 #include "volume_io/geometry_check.h"
 #include "volume_io/isolated_read.h"

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/voxel_type.h"
 #include "voxlume/error.h"
 #include "voxlume/volume_io.h"
 
@@ -55,32 +56,9 @@ std::string bytes_of(const std::vector<T>& values) {
   return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
 }
 
-/// Calls use(T{}) with the C++ type of `type`.
-template <typename Use>
-void with_type(VoxelType type, Use&& use) {
-  switch (type) {
-    case VoxelType::kU8:
-      return use(std::uint8_t{});
-    case VoxelType::kI8:
-      return use(std::int8_t{});
-    case VoxelType::kU16:
-      return use(std::uint16_t{});
-    case VoxelType::kI16:
-      return use(std::int16_t{});
-    case VoxelType::kU32:
-      return use(std::uint32_t{});
-    case VoxelType::kI32:
-      return use(std::int32_t{});
-    case VoxelType::kF32:
-      return use(float{});
-    case VoxelType::kF64:
-      return use(double{});
-  }
-}
-
 inline double value_at(const Volume& volume, std::size_t i) {
   double value = 0;
-  with_type(volume.type, [&](auto zero) {
+  with_voxel_type(volume.type, [&](auto zero) {
     value = static_cast<double>(static_cast<const decltype(zero)*>(volume.voxels.get())[i]);
   });
   return value;
@@ -93,7 +71,7 @@ inline Volume make_volume(VoxelType type, std::array<std::int64_t, 3> size,
   volume.size = size;
   volume.type = type;
   std::shared_ptr<char[]> voxels(new char[volume.byte_count()]);
-  with_type(type, [&](auto zero) {
+  with_voxel_type(type, [&](auto zero) {
     auto* out = reinterpret_cast<decltype(zero)*>(voxels.get());
     for (std::int64_t k = 0; k < size[2]; ++k) {
       for (std::int64_t j = 0; j < size[1]; ++j) {
@@ -110,7 +88,7 @@ inline Volume make_test_volume(VoxelType type, std::array<std::int64_t, 3> size 
   return make_volume(type, size, [&](std::int64_t i, std::int64_t j, std::int64_t k) -> double {
     const auto n = static_cast<double>(i + 7 * j + 35 * k);
     double value = 0;
-    with_type(type, [&](auto zero) {
+    with_voxel_type(type, [&](auto zero) {
       using T = decltype(zero);
       if constexpr (std::is_floating_point_v<T>) {
         value = n * 0.37 - 11.3;

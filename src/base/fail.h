@@ -11,9 +11,6 @@ namespace voxlume {
 /// cut.
 std::string one_line(std::string_view text);
 
-/// What a library says in an exception, without its source file, line, class name and address.
-std::string library_message(std::string_view what);
-
 /// Throws Error with `where` and `message` made one line.
 [[noreturn]] void fail(ErrorCode code, const std::filesystem::path& where, std::string_view message);
 

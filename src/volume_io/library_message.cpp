@@ -1,25 +1,8 @@
-#include "volume_io/fail.h"
+#include "volume_io/library_message.h"
+
+#include "base/fail.h"
 
 namespace voxlume {
-
-std::string one_line(std::string_view text) {
-  constexpr std::size_t kMaxBytes = 400;
-  std::string line;
-  for (const char c : text) {
-    const bool blank = static_cast<unsigned char>(c) <= ' ' || c == '\x7f';
-    if (!blank) {
-      line += c;
-    } else if (!line.empty() && line.back() != ' ') {
-      line += ' ';
-    }
-    if (line.size() == kMaxBytes) {
-      line += "...";
-      break;
-    }
-  }
-  while (!line.empty() && line.back() == ' ') line.pop_back();
-  return line;
-}
 
 std::string library_message(std::string_view what) {
   std::string text = one_line(what);
@@ -41,10 +24,6 @@ std::string library_message(std::string_view what) {
     text.erase(start, end + 3 - start);
   }
   return text;
-}
-
-void fail(ErrorCode code, const std::filesystem::path& where, std::string_view message) {
-  throw Error(code, one_line(where.string()), one_line(message));
 }
 
 }  // namespace voxlume
