@@ -1,5 +1,6 @@
-// Measures tracking speed on the scenes of bench/scenes, variants interleaved in one run, and prints JSON: medians of
-// wall time over the rounds, rates, and ratios round by round. Usage: voxlume_bench SCENES_FOLDER [ROUNDS]
+// Measures tracking speed on the scenes of bench/scenes, variants interleaved in one run, and prints JSON:
+// medians of wall time over the rounds, rates, and ratios round by round. Usage: voxlume_bench SCENES_FOLDER
+// [ROUNDS]
 #include <algorithm>
 #include <cstdio>
 #include <functional>
@@ -27,7 +28,8 @@ struct Render {
   double wall_s;
 };
 
-std::unique_ptr<CompiledScene> load(const std::string& path, const std::function<void(SceneDescription&)>& edit) {
+std::unique_ptr<CompiledScene> load(const std::string& path,
+                                    const std::function<void(SceneDescription&)>& edit) {
   SceneDescription scene = read_scene(path);
   edit(scene);
   Volume volume = open_volume(scene.volume);
@@ -73,7 +75,8 @@ struct Variant {
             {"rounds_s", wall_s},
             {"paths_per_s", static_cast<double>(counters.paths) / wall},
             {"steps_per_s", static_cast<double>(counters.tracking_steps) / wall},
-            {"steps_per_path", static_cast<double>(counters.tracking_steps) / static_cast<double>(counters.paths)},
+            {"steps_per_path",
+             static_cast<double>(counters.tracking_steps) / static_cast<double>(counters.paths)},
             {"majorant_build_ms", scene->majorant_build_ms()}};
   }
 };
@@ -113,8 +116,8 @@ Json tracking(const std::string& folder, int rounds) {
   return out;
 }
 
-/// The lit forehead of the peer scene: mean luminance, and seconds of one core until the relative standard deviation of
-/// a pixel is 10 %, from two independent renders.
+/// The lit forehead of the peer scene: mean luminance, and seconds of one core until the relative standard
+/// deviation of a pixel is 10 %, from two independent renders.
 Json peer(const std::string& folder, int max_scatter, int spp) {
   std::vector<Render> renders;
   for (const std::uint64_t seed : {1, 2}) {

@@ -41,11 +41,13 @@ std::size_t render_bytes(const Volume& volume, const GridView& grid) {
   return volume.byte_count() + cells * 3 * sizeof(float);
 }
 
-/// Value, name and voxel count of every label that the files beside the volume name; empty where there are none.
+/// Value, name and voxel count of every label that the files beside the volume name; empty where there are
+/// none.
 Json named_labels(const Volume& volume, const VolumeStatistics& statistics, const std::string& path) {
   Json labels = Json::array();
   constexpr float kMaxLabel = 65535;  // the histogram counts single values up to here
-  if (voxel_bytes(volume.type) > 2 || !(statistics.upper >= 1 && statistics.upper <= kMaxLabel)) return labels;
+  if (voxel_bytes(volume.type) > 2 || !(statistics.upper >= 1 && statistics.upper <= kMaxLabel))
+    return labels;
   LabelTable table;
   try {
     table = read_label_table(path, {}, static_cast<std::size_t>(statistics.upper) + 1);
@@ -54,7 +56,8 @@ Json named_labels(const Volume& volume, const VolumeStatistics& statistics, cons
   }
   for (const auto& [value, count] : statistics.histogram) {
     if (value < 0 || table.names[static_cast<std::size_t>(value)].empty()) continue;
-    labels.push_back({{"value", value}, {"name", table.names[static_cast<std::size_t>(value)]}, {"voxels", count}});
+    labels.push_back(
+        {{"value", value}, {"name", table.names[static_cast<std::size_t>(value)]}, {"voxels", count}});
   }
   return labels;
 }
@@ -122,7 +125,8 @@ void print_table(const Json& info) {
   constexpr std::size_t kShownLabels = 12;
   for (std::size_t i = 0; i < std::min(info["labels"].size(), kShownLabels); ++i) {
     const Json& label = info["labels"][i];
-    line(i == 0 ? "labels" : "", fmt::format("{:>5}  {}", label["value"].get<double>(), label["name"].get<std::string>()));
+    line(i == 0 ? "labels" : "",
+         fmt::format("{:>5}  {}", label["value"].get<double>(), label["name"].get<std::string>()));
   }
   if (info["labels"].size() > kShownLabels)
     line("", fmt::format("... {} in all; --json lists them", info["labels"].size()));

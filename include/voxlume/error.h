@@ -20,7 +20,9 @@ class Error : public std::runtime_error {
   /// `where`: a file name, "file: byte N", or "scene.json: /transfer/points/3". May be empty.
   Error(ErrorCode code, const std::string& where, const std::string& message)
       : std::runtime_error(where.empty() ? message : where + ": " + message),
-        code_(code), where_(where), message_(message) {}
+        code_(code),
+        where_(where),
+        message_(message) {}
 
   ErrorCode code() const noexcept { return code_; }
   const std::string& where() const noexcept { return where_; }

@@ -9,9 +9,9 @@ namespace voxlume {
 
 /// Extra values of every pixel, beside its colour.
 struct ImageLayer {
-  std::string name;                    ///< "albedo"
-  std::vector<std::string> channels;   ///< {"R", "G", "B"}; EXR channels are called name.channel
-  std::vector<float> values;           ///< row by row from the top, the channels of a pixel together
+  std::string name;                   ///< "albedo"
+  std::vector<std::string> channels;  ///< {"R", "G", "B"}; EXR channels are called name.channel
+  std::vector<float> values;          ///< row by row from the top, the channels of a pixel together
   friend bool operator==(const ImageLayer&, const ImageLayer&) = default;
 };
 
@@ -32,7 +32,7 @@ struct ImageLayer {
 /// "voxlume:seed", "voxlume:version".
 struct Image {
   int width = 0, height = 0;
-  std::vector<float> rgba;             ///< width * height * 4, row by row from the top
+  std::vector<float> rgba;  ///< width * height * 4, row by row from the top
   std::vector<ImageLayer> layers;
   std::map<std::string, std::string> metadata;
 
@@ -56,15 +56,15 @@ struct Image {
 /// A picture for display: sRGB-encoded, 8 bits a channel, straight alpha.
 struct Image8 {
   int width = 0, height = 0;
-  int channels = 3;                    ///< 3 (RGB) or 4 (RGBA)
-  std::vector<std::uint8_t> values;    ///< width * height * channels, row by row from the top
+  int channels = 3;                  ///< 3 (RGB) or 4 (RGBA)
+  std::vector<std::uint8_t> values;  ///< width * height * channels, row by row from the top
   std::map<std::string, std::string> metadata;
 };
 
 /// An equirectangular map of radiance, linear Rec. 709.
 struct EnvironmentImage {
-  int width = 0, height = 0;   ///< width = 2 height
-  std::vector<float> rgb;      ///< width * height * 3, row by row from the top; finite, >= 0
+  int width = 0, height = 0;  ///< width = 2 height
+  std::vector<float> rgb;     ///< width * height * 3, row by row from the top; finite, >= 0
 };
 
 }  // namespace voxlume

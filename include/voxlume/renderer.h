@@ -22,11 +22,11 @@ enum class RenderStatus {
 
 /// Where a render is.
 struct RenderProgress {
-  double spp = 0;                      ///< samples so far / pixels
-  double elapsed_s = 0;                ///< since the first sample, over all resumed parts
-  std::optional<double> remaining_s;   ///< estimate; absent while there is nothing to estimate from
-  double samples_per_s = 0;            ///< camera samples
-  std::optional<double> noise;         ///< as in StopRule, when last looked at
+  double spp = 0;                     ///< samples so far / pixels
+  double elapsed_s = 0;               ///< since the first sample, over all resumed parts
+  std::optional<double> remaining_s;  ///< estimate; absent while there is nothing to estimate from
+  double samples_per_s = 0;           ///< camera samples
+  std::optional<double> noise;        ///< as in StopRule, when last looked at
 };
 
 /// What `--stats` reports.
@@ -35,8 +35,8 @@ struct RenderStatistics {
   double load_s = 0;   ///< reading and compiling, before the first sample
   double total_s = 0;  ///< start of the program to this report
   int threads = 0;
-  std::string simd;    ///< instruction set that traced: "scalar", ...
-  double spp = 0;      ///< mean over pixels
+  std::string simd;         ///< instruction set that traced: "scalar", ...
+  double spp = 0;           ///< mean over pixels
   std::uint64_t paths = 0;  ///< camera samples, misses included
   std::uint64_t tracking_steps = 0;
   std::uint64_t shadow_rays = 0;

@@ -8,8 +8,8 @@
 namespace voxlume {
 
 // The scene as a user describes it: plain data, mutable, with the defaults of the scene file. Empty optionals
-// are chosen from the volume by resolve() (the default picture). Positions are LPS mm, directions LPS, lengths
-// mm, extinction 1/mm, angles degrees, radiance linear Rec. 709.
+// are chosen from the volume by resolve() (the default picture). Positions are LPS mm, directions LPS,
+// lengths mm, extinction 1/mm, angles degrees, radiance linear Rec. 709.
 
 using Double3 = std::array<double, 3>;
 
@@ -21,10 +21,10 @@ struct Color {
 
 /// Where the voxels come from.
 struct VolumeDescription {
-  std::string path;                  ///< file or folder; relative to the scene file's folder. "phantom" is built in
-  std::string raw;                   ///< RawSpec text when `path` is headerless, else empty
-  std::optional<Double3> spacing_mm; ///< overrides the file's
-  std::optional<Double3> origin_mm;  ///< overrides the file's: LPS position of the first voxel's centre
+  std::string path;  ///< file or folder; relative to the scene file's folder. "phantom" is built in
+  std::string raw;   ///< RawSpec text when `path` is headerless, else empty
+  std::optional<Double3> spacing_mm;  ///< overrides the file's
+  std::optional<Double3> origin_mm;   ///< overrides the file's: LPS position of the first voxel's centre
   /// Overrides the file's: row-major 3x3, column a is the LPS direction of index axis a; orthonormal.
   std::optional<std::array<double, 9>> direction;
   friend bool operator==(const VolumeDescription&, const VolumeDescription&) = default;
@@ -32,28 +32,28 @@ struct VolumeDescription {
 
 /// One control point. Every coefficient has its own piecewise-linear curve through the points that give it.
 struct TransferPoint {
-  double value = 0;                     ///< data units; points are sorted; two at one value are a step
-  std::optional<double> opacity;        ///< [0,1] per reference length
-  std::optional<double> mu_t_per_mm;    ///< >= 0; a function uses either opacity or this, not both
-  std::optional<Color> color;           ///< scattering albedo, each channel in [0,1]
-  std::optional<Color> emission;        ///< emitted radiance of an opaque region, >= 0
+  double value = 0;                   ///< data units; points are sorted; two at one value are a step
+  std::optional<double> opacity;      ///< [0,1] per reference length
+  std::optional<double> mu_t_per_mm;  ///< >= 0; a function uses either opacity or this, not both
+  std::optional<Color> color;         ///< scattering albedo, each channel in [0,1]
+  std::optional<Color> emission;      ///< emitted radiance of an opaque region, >= 0
   friend bool operator==(const TransferPoint&, const TransferPoint&) = default;
 };
 
 /// Data value to optical coefficients: interpolate the data, then classify.
 struct TransferDescription {
-  std::string preset;                          ///< a preset name; its points are used when `points` is empty
-  std::optional<double> reference_length_mm;   ///< mu_t = -ln(1 - min(o, 0.9999)) / reference_length_mm; > 0
-  double density_scale = 1;                    ///< multiplies mu_t; >= 0
+  std::string preset;                         ///< a preset name; its points are used when `points` is empty
+  std::optional<double> reference_length_mm;  ///< mu_t = -ln(1 - min(o, 0.9999)) / reference_length_mm; > 0
+  double density_scale = 1;                   ///< multiplies mu_t; >= 0
   std::vector<TransferPoint> points;
   friend bool operator==(const TransferDescription&, const TransferDescription&) = default;
 };
 
 /// Colours of a label volume over the transfer function's colour (nearest lookup; opacity is not changed).
 struct LabelsDescription {
-  std::string path;        ///< label volume, any integer type, any grid
-  std::string names;       ///< .txt/.lut of names and colours; empty looks beside `path`
-  double strength = 1;     ///< [0,1]: how much of the label's colour replaces the function's
+  std::string path;     ///< label volume, any integer type, any grid
+  std::string names;    ///< .txt/.lut of names and colours; empty looks beside `path`
+  double strength = 1;  ///< [0,1]: how much of the label's colour replaces the function's
   friend bool operator==(const LabelsDescription&, const LabelsDescription&) = default;
 };
 
@@ -73,8 +73,8 @@ struct MaterialDescription {
 };
 
 enum class LightKind { kDirectional, kPoint, kRect };
-/// What a position or direction is relative to. World: LPS mm. Camera: (right, up, toward the eye) in mm from the
-/// camera's target, so that orbiting carries the light along and zooming does not change it.
+/// What a position or direction is relative to. World: LPS mm. Camera: (right, up, toward the eye) in mm from
+/// the camera's target, so that orbiting carries the light along and zooming does not change it.
 enum class Attachment { kWorld, kCamera };
 
 /// A light other than the environment.
@@ -88,18 +88,18 @@ struct LightDescription {
   std::optional<Double3> direction;    ///< directional: from the scene TO the light; need not be unit
   std::optional<Double3> position_mm;  ///< point, rect (its centre)
   std::optional<Double3> target_mm;    ///< rect: the point its front faces; default the camera's target
-  std::optional<Double3> up;           ///< rect: direction of its height axis; default the camera's or world up
+  std::optional<Double3> up;  ///< rect: direction of its height axis; default the camera's or world up
   std::array<double, 2> size_mm{100, 100};  ///< rect: width, height; > 0
-  bool two_sided = false;              ///< rect: emits from its back as well
+  bool two_sided = false;                   ///< rect: emits from its back as well
   friend bool operator==(const LightDescription&, const LightDescription&) = default;
 };
 
 /// Light from everywhere: a colour, or an equirectangular picture times that colour.
 struct EnvironmentDescription {
-  std::string image;               ///< EXR or HDR, width = 2 height; empty is constant. +z (head) is its top
+  std::string image;  ///< EXR or HDR, width = 2 height; empty is constant. +z (head) is its top
   Color color;
-  double intensity = 1;            ///< radiance scale, >= 0
-  double rotation_deg = 0;         ///< about +z, toward the patient's left
+  double intensity = 1;     ///< radiance scale, >= 0
+  double rotation_deg = 0;  ///< about +z, toward the patient's left
   Attachment attached_to = Attachment::kWorld;
   /// Adds albedo times the mean radiance to every scattering, unshadowed (xu2024 6.1). Not physical.
   bool ambient = false;
@@ -117,17 +117,17 @@ enum class Projection { kPerspective, kOrthographic };
 /// The eye. Either by angles around the target (0,0 looks at the patient's face, head up), or by eye_mm.
 struct CameraDescription {
   Projection projection = Projection::kPerspective;
-  double azimuth_deg = 0;     ///< grows toward the patient's left
-  double elevation_deg = 0;   ///< toward the head; [-90, 90]
-  double roll_deg = 0;        ///< clockwise turn of the camera about its axis
-  double zoom = 1;            ///< > 0; 1 fits the bounding sphere of what is visible
-  double vertical_fov_deg = 30;              ///< perspective; (0, 170]
-  std::optional<Double3> target_mm;          ///< default: centre of what is visible
-  std::optional<Double3> eye_mm;             ///< overrides angles and zoom
-  std::optional<Double3> up;                 ///< with eye_mm; default +z
-  std::optional<double> height_mm;           ///< orthographic: height of the view; default fits, divided by zoom
-  double aperture_radius_mm = 0;             ///< thin lens for the volume; 0 is a pinhole
-  std::optional<double> focus_mm;            ///< distance of the sharp plane from the eye; default the target's
+  double azimuth_deg = 0;            ///< grows toward the patient's left
+  double elevation_deg = 0;          ///< toward the head; [-90, 90]
+  double roll_deg = 0;               ///< clockwise turn of the camera about its axis
+  double zoom = 1;                   ///< > 0; 1 fits the bounding sphere of what is visible
+  double vertical_fov_deg = 30;      ///< perspective; (0, 170]
+  std::optional<Double3> target_mm;  ///< default: centre of what is visible
+  std::optional<Double3> eye_mm;     ///< overrides angles and zoom
+  std::optional<Double3> up;         ///< with eye_mm; default +z
+  std::optional<double> height_mm;   ///< orthographic: height of the view; default fits, divided by zoom
+  double aperture_radius_mm = 0;     ///< thin lens for the volume; 0 is a pinhole
+  std::optional<double> focus_mm;    ///< distance of the sharp plane from the eye; default the target's
   /// Blur of the environment behind the volume, as the half angle of its own large lens (xu2024 6.1); [0, 45]
   double background_blur_deg = 0;
   friend bool operator==(const CameraDescription&, const CameraDescription&) = default;
@@ -136,7 +136,7 @@ struct CameraDescription {
 /// Keeps what is inside an axis-aligned box of LPS space.
 struct ClipDescription {
   std::array<double, 2> x_mm{-1e30, 1e30}, y_mm{-1e30, 1e30}, z_mm{-1e30, 1e30};
-  bool blocks_light = false;   ///< true: what is cut away still casts its shadow
+  bool blocks_light = false;  ///< true: what is cut away still casts its shadow
   friend bool operator==(const ClipDescription&, const ClipDescription&) = default;
 };
 
@@ -145,15 +145,16 @@ enum class ToneCurve { kFilmic, kSrgb };
 
 /// The picture: its size, how long to work on it and how it is developed.
 struct ImageDescription {
-  int width = 1024, height = 1024;       ///< 1..65536
-  std::optional<int> spp;                ///< stop after this many samples per pixel
-  std::optional<double> seconds;         ///< stop after this time
-  std::optional<double> noise;           ///< stop when mean(standard error / (luminance + 0.01)) <= this
+  int width = 1024, height = 1024;  ///< 1..65536
+  std::optional<int> spp;           ///< stop after this many samples per pixel
+  std::optional<double> seconds;    ///< stop after this time
+  std::optional<double> noise;      ///< stop when mean(standard error / (luminance + 0.01)) <= this
   PixelFilter filter = PixelFilter::kGaussian;
-  double filter_radius_px = 1.5;         ///< box: half width (0.5 is one pixel); gaussian: cut at this, sigma a third
-  double exposure_ev = 0;                ///< PNG: radiance times 2^EV
+  double filter_radius_px =
+      1.5;                 ///< box: half width (0.5 is one pixel); gaussian: cut at this, sigma a third
+  double exposure_ev = 0;  ///< PNG: radiance times 2^EV
   ToneCurve tone_curve = ToneCurve::kFilmic;
-  std::vector<std::string> aovs;         ///< alpha depth normal albedo samples variance
+  std::vector<std::string> aovs;  ///< alpha depth normal albedo samples variance
   friend bool operator==(const ImageDescription&, const ImageDescription&) = default;
 };
 
@@ -161,10 +162,10 @@ struct ImageDescription {
 struct RenderDescription {
   std::uint64_t seed = 0;
   std::uint32_t frame = 0;
-  int max_scatter = 2;            ///< 0 is without limit, ended by Russian roulette
+  int max_scatter = 2;               ///< 0 is without limit, ended by Russian roulette
   std::string accelerator = "auto";  ///< auto none macrocell
-  int macrocell_voxels = 0;       ///< edge of a macrocell; 0 chooses
-  std::string simd = "auto";      ///< auto scalar
+  int macrocell_voxels = 0;          ///< edge of a macrocell; 0 chooses
+  std::string simd = "auto";         ///< auto scalar
   std::string denoise = "none";
   /// Which techniques gather light at a scattering: "mis" (both), "light" (next-event estimation alone) or
   /// "direction" (direction sampling alone, which never finds point and directional lights).
@@ -180,8 +181,8 @@ struct SceneDescription {
   TransferDescription transfer;
   std::optional<LabelsDescription> labels;
   MaterialDescription material;
-  std::optional<std::vector<LightDescription>> lights;   ///< absent: the default lights; [] is none
-  std::optional<EnvironmentDescription> environment;     ///< absent: the default one
+  std::optional<std::vector<LightDescription>> lights;  ///< absent: the default lights; [] is none
+  std::optional<EnvironmentDescription> environment;    ///< absent: the default one
   std::optional<BackgroundDescription> background;
   CameraDescription camera;
   std::optional<ClipDescription> clip;

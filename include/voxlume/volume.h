@@ -16,11 +16,15 @@ enum class VoxelType : std::uint8_t { kU8, kI8, kU16, kI16, kU32, kI32, kF32, kF
 constexpr std::size_t voxel_bytes(VoxelType type) {
   switch (type) {
     case VoxelType::kU8:
-    case VoxelType::kI8: return 1;
+    case VoxelType::kI8:
+      return 1;
     case VoxelType::kU16:
-    case VoxelType::kI16: return 2;
-    case VoxelType::kF64: return 8;
-    default: return 4;
+    case VoxelType::kI16:
+      return 2;
+    case VoxelType::kF64:
+      return 8;
+    default:
+      return 4;
   }
 }
 

@@ -9,7 +9,9 @@ constexpr float kSafety = 1 + 1e-4f;
 }  // namespace
 
 MajorantGrid::MajorantGrid(const GridView& grid, int cell_voxels)
-    : ranges_(build_value_ranges(grid, cell_voxels)), mu_maj_(ranges_.ranges.size()), domain_(grid.index_box()) {}
+    : ranges_(build_value_ranges(grid, cell_voxels)),
+      mu_maj_(ranges_.ranges.size()),
+      domain_(grid.index_box()) {}
 
 void MajorantGrid::update(const TransferFunction& transfer) {
   constexpr std::int64_t kRun = 4096;

@@ -22,8 +22,8 @@ struct MajorantSegment {
   Box3f cell;           ///< index space; look-ups clamp to it, so that rounding never leaves the cell's range
 };
 
-/// Walks the cells that a ray crosses (3-D DDA). Crossing distances are computed from the planes themselves, so
-/// that rounding does not accumulate; axes the ray does not move along never cross.
+/// Walks the cells that a ray crosses (3-D DDA). Crossing distances are computed from the planes themselves,
+/// so that rounding does not accumulate; axes the ray does not move along never cross.
 class MacrocellWalk {
  public:
   /// origin_index + t * direction_index, t in mm from t_near to t_far, which lie inside the domain.
@@ -54,8 +54,9 @@ class MacrocellWalk {
     const float t_far = crossing_[axis] < t_end_ ? crossing_[axis] : t_end_;
     segment.t_near = t_;
     segment.t_far = t_far > t_ ? t_far : t_;
-    segment.mu_maj = view_.mu_maj[(static_cast<std::int64_t>(cell_[2]) * view_.cells[1] + cell_[1]) * view_.cells[0] +
-                                  cell_[0]];
+    segment.mu_maj =
+        view_.mu_maj[(static_cast<std::int64_t>(cell_[2]) * view_.cells[1] + cell_[1]) * view_.cells[0] +
+                     cell_[0]];
     for (int a = 0; a < 3; ++a) {
       segment.cell.lower[a] = face(a, cell_[a]);
       segment.cell.upper[a] = face(a, cell_[a] + 1);

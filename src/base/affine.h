@@ -10,7 +10,8 @@ struct Affine {
   Vec3<T> translation{0, 0, 0};
 
   Affine() = default;
-  Affine(Vec3<T> cx, Vec3<T> cy, Vec3<T> cz, Vec3<T> t) : column_x(cx), column_y(cy), column_z(cz), translation(t) {}
+  Affine(Vec3<T> cx, Vec3<T> cy, Vec3<T> cz, Vec3<T> t)
+      : column_x(cx), column_y(cy), column_z(cz), translation(t) {}
   template <class U>
   explicit Affine(const Affine<U>& o)
       : column_x(o.column_x), column_y(o.column_y), column_z(o.column_z), translation(o.translation) {}

@@ -7,12 +7,12 @@
 #else
 #include <cstdio>
 #include <cstdlib>
-#define VOXLUME_ASSERT_LE(a, b)                                                                             \
-  ((a) <= (b) ? (void)0                                                                                     \
-              : (std::fprintf(stderr, "%s:%d: %s <= %s failed: %g > %g\n", __FILE__, __LINE__, #a, #b,      \
-                              static_cast<double>(a), static_cast<double>(b)),                              \
+#define VOXLUME_ASSERT_LE(a, b)                                                                        \
+  ((a) <= (b) ? (void)0                                                                                \
+              : (std::fprintf(stderr, "%s:%d: %s <= %s failed: %g > %g\n", __FILE__, __LINE__, #a, #b, \
+                              static_cast<double>(a), static_cast<double>(b)),                         \
                  std::abort()))
-#define VOXLUME_ASSERT(condition)                                                                           \
-  ((condition) ? (void)0                                                                                    \
+#define VOXLUME_ASSERT(condition) \
+  ((condition) ? (void)0          \
                : (std::fprintf(stderr, "%s:%d: %s failed\n", __FILE__, __LINE__, #condition), std::abort()))
 #endif

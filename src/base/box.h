@@ -19,7 +19,8 @@ struct Box3 {
   constexpr Vec3<T> center() const { return (lower + upper) * T(0.5); }
   constexpr Vec3<T> extent() const { return upper - lower; }
   constexpr bool contains(Vec3<T> p) const {
-    return p.x >= lower.x && p.y >= lower.y && p.z >= lower.z && p.x <= upper.x && p.y <= upper.y && p.z <= upper.z;
+    return p.x >= lower.x && p.y >= lower.y && p.z >= lower.z && p.x <= upper.x && p.y <= upper.y &&
+           p.z <= upper.z;
   }
   friend constexpr Box3 intersect(const Box3& a, const Box3& b) {
     return {max(a.lower, b.lower), min(a.upper, b.upper)};

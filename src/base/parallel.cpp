@@ -26,8 +26,8 @@ int thread_count() {
 }
 
 #ifdef __SANITIZE_THREAD__
-// The sanitizer sees nothing of how a thread library that is not built with it hands work over, and takes that for
-// races. Plain threads show it our own.
+// The sanitizer sees nothing of how a thread library that is not built with it hands work over, and takes
+// that for races. Plain threads show it our own.
 void parallel_for(std::int64_t count, std::int64_t grain, const std::function<void(std::int64_t)>& body) {
   std::atomic<std::int64_t> next{0};
   std::exception_ptr failure;

@@ -12,7 +12,8 @@ struct Vec3 {
   constexpr explicit Vec3(T s) : x(s), y(s), z(s) {}
   constexpr Vec3(T x_, T y_, T z_) : x(x_), y(y_), z(z_) {}
   template <class U>
-  constexpr explicit Vec3(const Vec3<U>& v) : x(static_cast<T>(v.x)), y(static_cast<T>(v.y)), z(static_cast<T>(v.z)) {}
+  constexpr explicit Vec3(const Vec3<U>& v)
+      : x(static_cast<T>(v.x)), y(static_cast<T>(v.y)), z(static_cast<T>(v.z)) {}
 
   constexpr T operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
   constexpr T& operator[](int axis) { return axis == 0 ? x : axis == 1 ? y : z; }
@@ -36,16 +37,22 @@ using Vec3f = Vec3<float>;
 using Vec3d = Vec3<double>;
 
 template <class T>
-constexpr T dot(Vec3<T> a, Vec3<T> b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+constexpr T dot(Vec3<T> a, Vec3<T> b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 template <class T>
 constexpr Vec3<T> cross(Vec3<T> a, Vec3<T> b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 template <class T>
-T length(Vec3<T> v) { return std::sqrt(dot(v, v)); }
+T length(Vec3<T> v) {
+  return std::sqrt(dot(v, v));
+}
 /// Unit vector along v; v must not be zero.
 template <class T>
-Vec3<T> normalize(Vec3<T> v) { return v * (T(1) / length(v)); }
+Vec3<T> normalize(Vec3<T> v) {
+  return v * (T(1) / length(v));
+}
 template <class T>
 constexpr Vec3<T> min(Vec3<T> a, Vec3<T> b) {
   return {a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z};
@@ -55,15 +62,23 @@ constexpr Vec3<T> max(Vec3<T> a, Vec3<T> b) {
   return {a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z};
 }
 template <class T>
-constexpr T max_component(Vec3<T> v) { return v.x > v.y ? (v.x > v.z ? v.x : v.z) : (v.y > v.z ? v.y : v.z); }
+constexpr T max_component(Vec3<T> v) {
+  return v.x > v.y ? (v.x > v.z ? v.x : v.z) : (v.y > v.z ? v.y : v.z);
+}
 template <class T>
-constexpr T min_component(Vec3<T> v) { return v.x < v.y ? (v.x < v.z ? v.x : v.z) : (v.y < v.z ? v.y : v.z); }
+constexpr T min_component(Vec3<T> v) {
+  return v.x < v.y ? (v.x < v.z ? v.x : v.z) : (v.y < v.z ? v.y : v.z);
+}
 template <class T>
-bool is_finite(Vec3<T> v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool is_finite(Vec3<T> v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 /// Relative luminance of linear Rec. 709.
 template <class T>
-constexpr T luminance(Vec3<T> rgb) { return T(0.2126) * rgb.x + T(0.7152) * rgb.y + T(0.0722) * rgb.z; }
+constexpr T luminance(Vec3<T> rgb) {
+  return T(0.2126) * rgb.x + T(0.7152) * rgb.y + T(0.0722) * rgb.z;
+}
 
 /// A right-handed orthonormal basis whose z axis is a given unit normal.
 struct Frame {

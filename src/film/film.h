@@ -89,7 +89,7 @@ class Film {
   FilmLayers layers_;
   std::vector<Sums> sums_;
   std::vector<std::uint32_t> counts_;
-  std::vector<double> depths_;          // weighted by alpha, as are the next two
+  std::vector<double> depths_;  // weighted by alpha, as are the next two
   std::vector<Vec3d> normals_, albedos_;
   std::uint64_t nonfinite_samples_ = 0;  // written by many threads, through an atomic reference
 };

@@ -4,7 +4,8 @@ namespace voxlume {
 
 Affined world_from_index(const Volume& volume) {
   const auto column = [&](int a) {
-    return Vec3d(volume.direction[a], volume.direction[3 + a], volume.direction[6 + a]) * volume.spacing_mm[a];
+    return Vec3d(volume.direction[a], volume.direction[3 + a], volume.direction[6 + a]) *
+           volume.spacing_mm[a];
   };
   return {column(0), column(1), column(2),
           Vec3d(volume.origin_mm[0], volume.origin_mm[1], volume.origin_mm[2])};

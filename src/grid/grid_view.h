@@ -19,13 +19,11 @@ struct GridView {
   std::int64_t stride_j = 0, stride_k = 0;  ///< in voxels; stride of i is 1
   Affinef index_from_world;                 ///< p_index from LPS mm
   Affinef world_from_index;
-  Vec3f step_index;                         ///< one smallest voxel spacing, along each index axis [index units]
-  float step_mm = 1;                        ///< the smallest voxel spacing
+  Vec3f step_index;   ///< one smallest voxel spacing, along each index axis [index units]
+  float step_mm = 1;  ///< the smallest voxel spacing
 
   /// The whole field's domain.
-  Box3f index_box() const {
-    return {Vec3f(-0.5f), Vec3f(size[0] - 0.5f, size[1] - 0.5f, size[2] - 0.5f)};
-  }
+  Box3f index_box() const { return {Vec3f(-0.5f), Vec3f(size[0] - 0.5f, size[1] - 0.5f, size[2] - 0.5f)}; }
 };
 
 /// Calls f with a typed pointer to the voxels.

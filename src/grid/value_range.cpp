@@ -30,7 +30,8 @@ ValueRange range_of_block(const T* voxels, const GridView& grid, const std::int3
 // Three nested linear interpolations of floats, each rounding twice.
 ValueRange widened(ValueRange range) {
   if (range.empty() || range.lower == range.upper) return range;
-  const float slack = 8 * std::numeric_limits<float>::epsilon() * std::max(std::abs(range.lower), std::abs(range.upper));
+  const float slack =
+      8 * std::numeric_limits<float>::epsilon() * std::max(std::abs(range.lower), std::abs(range.upper));
   return {range.lower - slack, range.upper + slack};
 }
 
@@ -46,7 +47,8 @@ ValueRangeGrid build_value_ranges(const GridView& grid, int cell_voxels) {
   with_voxels(grid.type, grid.voxels, [&](const auto* voxels) {
     parallel_for(rows, 4, [&](std::int64_t row) {
       for (std::int32_t i = 0; i < out.cells[0]; ++i) {
-        const std::int32_t first[3] = {i * cell_voxels, static_cast<std::int32_t>(row % out.cells[1]) * cell_voxels,
+        const std::int32_t first[3] = {i * cell_voxels,
+                                       static_cast<std::int32_t>(row % out.cells[1]) * cell_voxels,
                                        static_cast<std::int32_t>(row / out.cells[1]) * cell_voxels};
         out.ranges[row * out.cells[0] + i] = widened(range_of_block(voxels, grid, first, cell_voxels));
       }

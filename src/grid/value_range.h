@@ -6,7 +6,8 @@
 
 namespace voxlume {
 
-/// Least and greatest value of the interpolated data in a cell; lower > upper when the cell has no finite value.
+/// Least and greatest value of the interpolated data in a cell; lower > upper when the cell has no finite
+/// value.
 struct ValueRange {
   float lower, upper;
   bool empty() const { return lower > upper; }
@@ -21,8 +22,8 @@ struct ValueRangeGrid {
   std::vector<ValueRange> ranges;  ///< i fastest
 };
 
-/// Builds the ranges, once per volume, on all threads. `cell_voxels` >= 1. Ranges are widened by the rounding of
-/// the interpolation (a few ulp), so that they hold for the floats sample_trilinear returns.
+/// Builds the ranges, once per volume, on all threads. `cell_voxels` >= 1. Ranges are widened by the rounding
+/// of the interpolation (a few ulp), so that they hold for the floats sample_trilinear returns.
 ValueRangeGrid build_value_ranges(const GridView& grid, int cell_voxels);
 
 }  // namespace voxlume

@@ -59,7 +59,9 @@ Extent find_extent(const T* voxels, const GridView& grid) {
 
 // A positive float's bits grow with its value: its upper 16 bits are a logarithmic bin, 1/128 wide.
 int magnitude_bin(float magnitude) { return static_cast<int>(std::bit_cast<std::uint32_t>(magnitude) >> 16); }
-float magnitude_of_bin(int bin) { return std::bit_cast<float>((static_cast<std::uint32_t>(bin) << 16) | 0x8000u); }
+float magnitude_of_bin(int bin) {
+  return std::bit_cast<float>((static_cast<std::uint32_t>(bin) << 16) | 0x8000u);
+}
 
 template <class T>
 float gradient_percentile(const T* voxels, const GridView& grid, double fraction) {
@@ -121,7 +123,8 @@ VolumeStatistics compute_statistics(const GridView& grid) {
       const auto* slice = voxels + k * grid.stride_k;
       for (std::int64_t i = 0; i < grid.stride_k; ++i) {
         const double v = static_cast<double>(slice[i]);
-        if (std::isfinite(v)) ++bins[bins_per_unit > 0 ? static_cast<int>((v - extent.lower) * bins_per_unit) : 0];
+        if (std::isfinite(v))
+          ++bins[bins_per_unit > 0 ? static_cast<int>((v - extent.lower) * bins_per_unit) : 0];
       }
     });
     for (int b = 0; b < kBins; ++b) {

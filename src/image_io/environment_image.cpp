@@ -21,8 +21,9 @@ EnvironmentImage read_environment(const std::filesystem::path& path, const Image
       const float value = image.rgba[4 * i + c];
       if (!std::isfinite(value)) {
         throw Error(ErrorCode::kBadFormat, path.string(),
-                    "has the value " + std::to_string(value) + " at pixel " + std::to_string(i % image.width) + "," +
-                        std::to_string(i / image.width) + "; expected finite radiance");
+                    "has the value " + std::to_string(value) + " at pixel " +
+                        std::to_string(i % image.width) + "," + std::to_string(i / image.width) +
+                        "; expected finite radiance");
       }
       environment.rgb.push_back(std::max(value, 0.0f));
     }

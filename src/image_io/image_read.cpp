@@ -5,10 +5,10 @@
 #include <string>
 #include <string_view>
 
+#include "base/fail.h"
 #include "image_io/image_io.h"
 #include "image_io/picture_check.h"
 #include "image_io/png_read.h"
-#include "base/fail.h"
 
 namespace voxlume {
 namespace {

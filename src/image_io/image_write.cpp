@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "base/atomic_file.h"
-#include "image_io/image_io.h"
 #include "base/fail.h"
+#include "image_io/image_io.h"
 #include "voxlume/error.h"
 
 namespace voxlume {

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "base/fail.h"
 #include "image_io/picture_check.h"
 #include "tonemap/srgb.h"
-#include "base/fail.h"
 
 namespace voxlume {
 namespace {

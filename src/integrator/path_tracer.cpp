@@ -38,8 +38,10 @@ class PathTracer {
 
  private:
   /// Where a ray is inside the visible region, or, for light that what is cut away blocks, inside the volume.
-  Interval<float> inside(const IndexRay& ray, Vec3f origin_world, Vec3f direction_world, bool clipped) const noexcept {
-    const Interval<float> volume = clip_ray(scene_.domain_index, ray.origin_index, ray.direction_index, 0.0f, kInfinity);
+  Interval<float> inside(const IndexRay& ray, Vec3f origin_world, Vec3f direction_world,
+                         bool clipped) const noexcept {
+    const Interval<float> volume =
+        clip_ray(scene_.domain_index, ray.origin_index, ray.direction_index, 0.0f, kInfinity);
     if (volume.empty() || !clipped) return volume;
     return clip_ray(scene_.clip_world, origin_world, direction_world, volume.t_near, volume.t_far);
   }
@@ -61,7 +63,8 @@ class PathTracer {
 Collision PathTracer::fly(const Path& path) noexcept {
   const IndexRay ray = to_index_ray(scene_.medium.grid, path.origin_world, path.direction_world);
   const bool camera_ray = path.direction_pdf == 0;
-  const Interval<float> run = inside(ray, path.origin_world, path.direction_world, camera_ray || light_is_clipped());
+  const Interval<float> run =
+      inside(ray, path.origin_world, path.direction_world, camera_ray || light_is_clipped());
   if (run.empty()) return {};
   TrackingCounters tracking;
   const Collision collision = sample_free_flight(scene_.medium, ray, run.t_near, run.t_far, rng_, tracking);
@@ -96,8 +99,8 @@ Vec3f PathTracer::direct_light(const ScatterPoint& point, Vec3f p_world, Vec3f w
   float transmittance = 1;
   if (!run.empty() && run.t_near < light.distance_mm) {
     TrackingCounters tracking;
-    transmittance = estimate_transmittance(scene_.medium, ray, run.t_near, std::min(run.t_far, light.distance_mm),
-                                           rng_, tracking);
+    transmittance = estimate_transmittance(scene_.medium, ray, run.t_near,
+                                           std::min(run.t_far, light.distance_mm), rng_, tracking);
     counters_.tracking_steps += tracking.steps;
     counters_.majorant_violations += tracking.majorant_violations;
   }
@@ -132,9 +135,12 @@ bool PathTracer::survives(Path& path, int depth) noexcept {
 /// What a camera ray that meets nothing sees.
 Vec3f PathTracer::background(float px, float py, Vec3f direction) noexcept {
   switch (scene_.background) {
-    case BackgroundKind::kTransparent: return Vec3f(0);
-    case BackgroundKind::kColor: return scene_.background_color;
-    case BackgroundKind::kEnvironment: break;
+    case BackgroundKind::kTransparent:
+      return Vec3f(0);
+    case BackgroundKind::kColor:
+      return scene_.background_color;
+    case BackgroundKind::kEnvironment:
+      break;
   }
   if (scene_.camera.background_versine > 0) {
     const float u0 = rng_.next(), u1 = rng_.next();
@@ -187,8 +193,8 @@ PixelSample PathTracer::trace(float px, float py) noexcept {
 
 PixelSample trace_camera_sample(const SceneView& scene, int x, int y, std::uint32_t sample,
                                 TraceCounters& counters) noexcept {
-  const std::uint32_t pixel = static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(scene.width) +
-                              static_cast<std::uint32_t>(x);
+  const std::uint32_t pixel =
+      static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(scene.width) + static_cast<std::uint32_t>(x);
   Rng rng(scene.seed, scene.frame, pixel, sample);
   const float px = x + 0.5f + sample_filter(scene.filter, scene.filter_radius_px, rng.next());
   const float py = y + 0.5f + sample_filter(scene.filter, scene.filter_radius_px, rng.next());

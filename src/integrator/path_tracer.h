@@ -6,10 +6,10 @@
 
 namespace voxlume {
 
-/// One camera sample of pixel (x, y): an unbiased estimate of its radiance. Scattering positions by delta tracking,
-/// direct light by next-event estimation with ratio-tracked shadow rays, combined with direction sampling by the
-/// power heuristic; after the last allowed scattering the sampled direction still collects light that reaches it
-/// unscattered. The random stream depends on (seed, frame, pixel, sample) alone.
+/// One camera sample of pixel (x, y): an unbiased estimate of its radiance. Scattering positions by delta
+/// tracking, direct light by next-event estimation with ratio-tracked shadow rays, combined with direction
+/// sampling by the power heuristic; after the last allowed scattering the sampled direction still collects
+/// light that reaches it unscattered. The random stream depends on (seed, frame, pixel, sample) alone.
 PixelSample trace_camera_sample(const SceneView& scene, int x, int y, std::uint32_t sample,
                                 TraceCounters& counters) noexcept;
 

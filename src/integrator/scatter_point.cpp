@@ -49,7 +49,8 @@ MatterPoint matter_at(const SceneView& scene, Vec3f p_index, float value) noexce
   ScatterPoint& scatter = point.scatter;
   scatter.normal = Vec3f(0);
   scatter.p_brdf = 0;
-  scatter.albedo = scene.labels.color_count ? label_color(scene.labels, p_world, optics.albedo) : optics.albedo;
+  scatter.albedo =
+      scene.labels.color_count ? label_color(scene.labels, p_world, optics.albedo) : optics.albedo;
   scatter.g = scattering.g;
   scatter.alpha = scattering.alpha;
   scatter.f0 = scattering.f0;

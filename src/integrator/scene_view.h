@@ -10,9 +10,9 @@ namespace voxlume {
 
 /// Colours laid over the transfer function's by a label volume.
 struct LabelsView {
-  GridView grid;                    ///< nearest lookup
-  const Vec3f* color = nullptr;     ///< by label value; component x < 0: the label has no colour
-  std::int32_t color_count = 0;     ///< 0: no labels
+  GridView grid;                 ///< nearest lookup
+  const Vec3f* color = nullptr;  ///< by label value; component x < 0: the label has no colour
+  std::int32_t color_count = 0;  ///< 0: no labels
   float strength = 1;
 };
 
@@ -31,14 +31,14 @@ enum class LightSampling { kMis, kLight, kDirection };
 /// Everything a path needs, as plain data. Compiled once by CompiledScene, which owns what this points to.
 struct SceneView {
   Medium medium;
-  Box3f domain_index;             ///< the volume
-  Box3f clip_world;               ///< LPS mm; what is kept
-  bool clip_blocks_light = false; ///< what is cut away still attenuates light
+  Box3f domain_index;              ///< the volume
+  Box3f clip_world;                ///< LPS mm; what is kept
+  bool clip_blocks_light = false;  ///< what is cut away still attenuates light
   ScatteringView scattering;
   LabelsView labels;
 
   LightsView lights;
-  Vec3f ambient{0};               ///< radiance added unshadowed at every scattering (xu2024 6.1)
+  Vec3f ambient{0};  ///< radiance added unshadowed at every scattering (xu2024 6.1)
   CameraView camera;
   BackgroundKind background = BackgroundKind::kColor;
   Vec3f background_color{0};
@@ -48,7 +48,7 @@ struct SceneView {
   float filter_radius_px = 1.5f;
   std::uint64_t seed = 0;
   std::uint32_t frame = 0;
-  std::int32_t max_scatter = 2;   ///< 0: no limit
+  std::int32_t max_scatter = 2;  ///< 0: no limit
   LightSampling light_sampling = LightSampling::kMis;
 };
 

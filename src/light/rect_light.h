@@ -42,8 +42,8 @@ inline float rect_solid_angle(const RectFromPoint& r) noexcept {
   return 2.0f * (std::atan2(volume, abc) + std::atan2(volume, acd));
 }
 
-/// How a rect is sampled from a point. Solid angle is best where floats allow it. Far away the light's area is sampled;
-/// close to its plane, where the area's density has no bound, the hemisphere toward it.
+/// How a rect is sampled from a point. Solid angle is best where floats allow it. Far away the light's area
+/// is sampled; close to its plane, where the area's density has no bound, the hemisphere toward it.
 enum class RectSampling { kArea, kSolidAngle, kHemisphere };
 
 inline RectSampling rect_sampling(float solid_angle) noexcept {
@@ -55,9 +55,12 @@ inline RectSampling rect_sampling(float solid_angle) noexcept {
 /// Density (1/sr) of sampling the rect's point at distance `distance_mm`.
 inline float rect_pdf(const RectFromPoint& r, float solid_angle, float distance_mm) noexcept {
   switch (rect_sampling(solid_angle)) {
-    case RectSampling::kSolidAngle: return 1.0f / solid_angle;
-    case RectSampling::kHemisphere: return 0.5f * std::numbers::inv_pi_v<float>;
-    case RectSampling::kArea: break;
+    case RectSampling::kSolidAngle:
+      return 1.0f / solid_angle;
+    case RectSampling::kHemisphere:
+      return 0.5f * std::numbers::inv_pi_v<float>;
+    case RectSampling::kArea:
+      break;
   }
   const float area = (r.x1 - r.x0) * (r.y1 - r.y0);
   return distance_mm * distance_mm * distance_mm / (std::abs(r.height) * area);
@@ -67,8 +70,8 @@ struct RectPoint {
   float x, y;  ///< in the axes of RectFromPoint
 };
 
-/// Where the direction that u0, u1 stand for, uniform over the hemisphere toward the rect's plane, meets that plane: not
-/// always inside the rect.
+/// Where the direction that u0, u1 stand for, uniform over the hemisphere toward the rect's plane, meets that
+/// plane: not always inside the rect.
 inline RectPoint sample_rect_hemisphere(const RectFromPoint& r, float u0, float u1) noexcept {
   const float cosine = 1.0f - u0;  // never 0
   const float radius = std::abs(r.height) * std::sqrt(u0 * (1.0f + cosine)) / cosine;
@@ -108,9 +111,12 @@ inline RectPoint sample_rect_solid_angle(const RectFromPoint& r, float solid_ang
 /// The point of the rect that u0, u1 stand for, with density rect_pdf; outside the rect: none.
 inline RectPoint sample_rect(const RectFromPoint& r, float solid_angle, float u0, float u1) noexcept {
   switch (rect_sampling(solid_angle)) {
-    case RectSampling::kSolidAngle: return sample_rect_solid_angle(r, solid_angle, u0, u1);
-    case RectSampling::kHemisphere: return sample_rect_hemisphere(r, u0, u1);
-    case RectSampling::kArea: break;
+    case RectSampling::kSolidAngle:
+      return sample_rect_solid_angle(r, solid_angle, u0, u1);
+    case RectSampling::kHemisphere:
+      return sample_rect_hemisphere(r, u0, u1);
+    case RectSampling::kArea:
+      break;
   }
   return {r.x0 + u0 * (r.x1 - r.x0), r.y0 + u1 * (r.y1 - r.y0)};
 }

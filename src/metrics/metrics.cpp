@@ -33,9 +33,9 @@ void check_finite(const Image& image, const char* which) {
 
 void check_pair(const Image& image, const Image& reference) {
   if (image.width != reference.width || image.height != reference.height) {
-    throw Error(ErrorCode::kBadParameter, "",
-                "sizes differ: " + size_text(image) + " and " + size_text(reference) +
-                    "; expected equal sizes");
+    throw Error(
+        ErrorCode::kBadParameter, "",
+        "sizes differ: " + size_text(image) + " and " + size_text(reference) + "; expected equal sizes");
   }
   if (image.width < 1 || image.height < 1) {
     throw Error(ErrorCode::kBadParameter, "", "the pictures are empty; expected at least one pixel");

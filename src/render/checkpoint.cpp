@@ -85,8 +85,7 @@ void check_header(const Header& header, std::uint64_t file_bytes, const fs::path
   const bool sizes_ok = side_ok(header.width) && side_ok(header.height) && side_ok(header.tile_size) &&
                         header.layer_bits < 8 && header.fingerprint_bytes <= file_bytes;
   if (!sizes_ok) fail_format(path, "is a damaged checkpoint: impossible sizes");
-  const std::uint64_t expected =
-      sizeof(Header) + header.fingerprint_bytes + film_bytes(header) + sizeof(Crc);
+  const std::uint64_t expected = sizeof(Header) + header.fingerprint_bytes + film_bytes(header) + sizeof(Crc);
   if (file_bytes != expected) {
     fail_format(path, "is a damaged checkpoint of " + std::to_string(file_bytes) + " bytes; expected " +
                           std::to_string(expected));

@@ -1,6 +1,5 @@
 #include "render/film_image.h"
 
-
 #include "voxlume/error.h"
 
 namespace voxlume {

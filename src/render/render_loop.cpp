@@ -18,9 +18,9 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kMaxSamples = std::numeric_limits<int>::max();
 constexpr int kMaxTileSize = 65536;
-constexpr int kPassCap = 32;         // samples a tile gains in the longest pass
+constexpr int kPassCap = 32;          // samples a tile gains in the longest pass
 constexpr int kNoiseFromSamples = 8;  // fewer make the standard error itself too uncertain
-constexpr double kRunSeconds = 0.1;  // what one call of the trace function should take
+constexpr double kRunSeconds = 0.1;   // what one call of the trace function should take
 
 double seconds_between(Clock::time_point begin, Clock::time_point end) {
   return std::chrono::duration<double>(end - begin).count();
@@ -71,7 +71,9 @@ bool is_pass_end(int samples) { return samples > 0 && pass_end(samples - 1) == s
 class Loop {
  public:
   Loop(RenderState& state, const TraceFunction& trace, const RenderLoopOptions& options)
-      : state_(state), trace_(trace), options_(options),
+      : state_(state),
+        trace_(trace),
+        options_(options),
         tiles_(make_tiles(state.film.width(), state.film.height(), std::max(state.tile_size, 1))),
         pixel_count_(static_cast<double>(state.film.pixel_count())),
         initial_samples_(static_cast<double>(state.film.total_samples())),
@@ -218,10 +220,10 @@ class Loop {
   int least_ = 0;            // of counts_, before the pass
   Clock::time_point start_, checkpoint_saved_;
   std::mutex counters_mutex_;
-  std::atomic<std::uint64_t> traced_{0};   // samples of this call
-  std::atomic<std::int64_t> busy_ns_{0};   // time inside the trace function, over all threads
-  std::atomic<double> noise_{-1};          // as last measured; negative before
-  std::atomic<int> noise_samples_{-1};     // samples per pixel at which it was measured
+  std::atomic<std::uint64_t> traced_{0};  // samples of this call
+  std::atomic<std::int64_t> busy_ns_{0};  // time inside the trace function, over all threads
+  std::atomic<double> noise_{-1};         // as last measured; negative before
+  std::atomic<int> noise_samples_{-1};    // samples per pixel at which it was measured
 };
 
 }  // namespace

@@ -29,12 +29,12 @@ struct RenderState {
 
 struct RenderLoopOptions {
   StopRule stop;
-  int threads = 0;                                        ///< 0: all the machine has
-  std::vector<int> tile_order;                            ///< a permutation of the tiles; empty: row by row
-  std::function<void(const RenderProgress&)> progress;    ///< called by one thread, at most 10 times a second
-  const std::atomic<bool>* cancel = nullptr;              ///< set by anyone to stop early
-  std::filesystem::path checkpoint;                       ///< empty: none is written
-  std::string fingerprint;                                ///< of the scene, for the checkpoint
+  int threads = 0;                                      ///< 0: all the machine has
+  std::vector<int> tile_order;                          ///< a permutation of the tiles; empty: row by row
+  std::function<void(const RenderProgress&)> progress;  ///< called by one thread, at most 10 times a second
+  const std::atomic<bool>* cancel = nullptr;            ///< set by anyone to stop early
+  std::filesystem::path checkpoint;                     ///< empty: none is written
+  std::string fingerprint;                              ///< of the scene, for the checkpoint
   double checkpoint_interval_s = 30;
 };
 

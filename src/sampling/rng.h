@@ -4,8 +4,8 @@
 
 namespace voxlume {
 
-/// One block of Philox4x32-7 (Salmon et al. 2011, "Parallel random numbers: as easy as 1, 2, 3"): a bijection of
-/// the 128-bit counter chosen by the 64-bit key. Seven rounds are the fewest that pass BigCrush.
+/// One block of Philox4x32-7 (Salmon et al. 2011, "Parallel random numbers: as easy as 1, 2, 3"): a bijection
+/// of the 128-bit counter chosen by the 64-bit key. Seven rounds are the fewest that pass BigCrush.
 constexpr std::array<std::uint32_t, 4> philox4x32_7(std::array<std::uint32_t, 4> counter,
                                                     std::array<std::uint32_t, 2> key) {
   for (int round = 0; round < 7; ++round) {
@@ -22,8 +22,8 @@ constexpr std::array<std::uint32_t, 4> philox4x32_7(std::array<std::uint32_t, 4>
 /// The top 24 bits as a float in [0, 1 - 2^-24].
 constexpr float unit_float(std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }
 
-/// The random stream of one camera sample: a function of (seed, frame, pixel, sample, dimension) alone, so that
-/// no thread count, tile order or resumption changes a picture. Dimensions are drawn in order.
+/// The random stream of one camera sample: a function of (seed, frame, pixel, sample, dimension) alone, so
+/// that no thread count, tile order or resumption changes a picture. Dimensions are drawn in order.
 class Rng {
  public:
   /// `pixel` is the pixel's index in the image (row * width + column).

@@ -18,8 +18,8 @@ namespace voxlume {
 namespace {
 
 constexpr std::size_t kMaxLabel = 1u << 20;
-/// Optical depth of one voxel above which a transfer function is refused: a ray would take as many steps through it
-/// as its majorant says, and beyond this float distances no longer move on.
+/// Optical depth of one voxel above which a transfer function is refused: a ray would take as many steps
+/// through it as its majorant says, and beyond this float distances no longer move on.
 constexpr double kMaxVoxelDepth = 1e5;
 
 Vec3f to_vec(const Color& color) { return {color.linear[0], color.linear[1], color.linear[2]}; }
@@ -52,7 +52,8 @@ void check_whole_numbers(const GridView& grid, const std::string& path) {
       }
     });
   });
-  if (fractions) throw Error(ErrorCode::kBadFormat, path, "expected a label volume of whole numbers, found fractions");
+  if (fractions)
+    throw Error(ErrorCode::kBadFormat, path, "expected a label volume of whole numbers, found fractions");
 }
 
 LightSampling light_sampling(const std::string& name) {
@@ -88,7 +89,8 @@ void CompiledScene::compile_medium(const SceneDescription& local) {
                     " in one voxel; expected at most 100000");
   const auto start = std::chrono::steady_clock::now();
   majorants_.update(transfer_);
-  majorant_build_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  majorant_build_ms_ =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   view_.medium = {make_grid_view(moved_to_origin(volume_, origin_mm_)), transfer_.view(), majorants_.view()};
   view_.domain_index = view_.medium.grid.index_box();
   view_.clip_world = {Vec3f(-1e30f), Vec3f(1e30f)};
@@ -121,8 +123,9 @@ void CompiledScene::compile_labels() {
   const VolumeStatistics statistics = compute_statistics(grid);
   check_whole_numbers(grid, labels.path);
   if (statistics.upper > static_cast<float>(kMaxLabel))
-    throw Error(ErrorCode::kBadFormat, labels.path,
-                "expected labels up to " + std::to_string(kMaxLabel) + ", found " + std::to_string(statistics.upper));
+    throw Error(
+        ErrorCode::kBadFormat, labels.path,
+        "expected labels up to " + std::to_string(kMaxLabel) + ", found " + std::to_string(statistics.upper));
   const auto count = static_cast<std::size_t>(std::max(statistics.upper, 0.0f)) + 1;
   label_table_ = read_label_table(labels.path, labels.names, count);
   view_.labels = {grid, label_table_->colors.data(), static_cast<std::int32_t>(count),

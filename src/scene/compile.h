@@ -14,8 +14,8 @@
 
 namespace voxlume {
 
-/// A scene ready to trace: owns the voxels and every table that view() points to. Immutable. World coordinates of
-/// view() are LPS mm from the volume's centre.
+/// A scene ready to trace: owns the voxels and every table that view() points to. Immutable. World
+/// coordinates of view() are LPS mm from the volume's centre.
 class CompiledScene {
  public:
   /// `description` is resolved (scene/resolve.h); reads its environment picture and label volume.
@@ -32,6 +32,7 @@ class CompiledScene {
   const std::vector<std::string>& warnings() const { return warnings_; }
 
   double majorant_build_ms() const { return majorant_build_ms_; }
+
  private:
   void compile_medium(const SceneDescription& local);
   void compile_scattering(const VolumeStatistics& statistics);

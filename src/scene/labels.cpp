@@ -43,7 +43,8 @@ void read_lut(const fs::path& path, LabelTable& table) {
 void read_text(const fs::path& path, LabelTable& table) {
   std::error_code error;
   if (fs::file_size(path, error) > kMaxTextBytes || error)
-    throw Error(ErrorCode::kBadFormat, path.string(), "expected a text file of label names of at most 16 MiB");
+    throw Error(ErrorCode::kBadFormat, path.string(),
+                "expected a text file of label names of at most 16 MiB");
   std::ifstream file(path);
   std::string line;
   for (int number = 1; std::getline(file, line); ++number) {
@@ -51,7 +52,8 @@ void read_text(const fs::path& path, LabelTable& table) {
     std::string first;
     if (!(fields >> first) || first[0] == '#') continue;
     const auto fail = [&](const std::string& expected) {
-      throw Error(ErrorCode::kBadFormat, path.string() + ": line " + std::to_string(number), "expected " + expected);
+      throw Error(ErrorCode::kBadFormat, path.string() + ": line " + std::to_string(number),
+                  "expected " + expected);
     };
     if (first.size() > 9 || first.find_first_not_of("0123456789") != std::string::npos)
       fail("a label value, as in \"12 Hippocampus_L\"");

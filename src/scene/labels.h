@@ -14,11 +14,11 @@ struct LabelTable {
 };
 
 /// Reads names and colours of `count` labels (values 0 .. count-1; 0 is background and stays without colour).
-/// `names_path` is a text file of "value name [r g b [a]]" lines (colours 0..255 sRGB, # comments), or a .lut of 256
-/// red, 256 green and 256 blue bytes; empty: the files called VOLUME.txt and VOLUME.lut, or the volume's name with its
-/// endings replaced by them, beside `volume_path`, both where both are there. Labels that have no colour
-/// (in a .lut: or black) get one of evenly spread hues.
-/// Throws Error kFileNotFound for a names_path that is not there, kBadFormat with the line of what cannot be read.
+/// `names_path` is a text file of "value name [r g b [a]]" lines (colours 0..255 sRGB, # comments), or a .lut
+/// of 256 red, 256 green and 256 blue bytes; empty: the files called VOLUME.txt and VOLUME.lut, or the
+/// volume's name with its endings replaced by them, beside `volume_path`, both where both are there. Labels
+/// that have no colour (in a .lut: or black) get one of evenly spread hues. Throws Error kFileNotFound for a
+/// names_path that is not there, kBadFormat with the line of what cannot be read.
 LabelTable read_label_table(const std::filesystem::path& volume_path, const std::filesystem::path& names_path,
                             std::size_t count);
 

@@ -11,7 +11,9 @@ namespace voxlume {
 namespace {
 
 Color srgb(int hex) {
-  const auto channel = [&](int shift) { return linear_from_srgb(static_cast<float>(hex >> shift & 255) / 255.0f); };
+  const auto channel = [&](int shift) {
+    return linear_from_srgb(static_cast<float>(hex >> shift & 255) / 255.0f);
+  };
   return {{channel(16), channel(8), channel(0)}};
 }
 
@@ -26,8 +28,8 @@ TransferPoint point(double value, double opacity, int hex) {
 constexpr int kSkin = 0xeec5ae, kMuscle = 0xc4776a, kVessel = 0xc06a5c, kBone = 0xeee3cf, kTooth = 0xf9f5ec;
 
 std::vector<TransferPoint> ct_bone(const VolumeStatistics&) {
-  return {point(140, 0, 0xd8ad90), point(220, 0.25, 0xe3c6a6), point(400, 0.9, kBone), point(1400, 0.98, kTooth),
-          point(3000, 0.99, 0xfbfaf6)};
+  return {point(140, 0, 0xd8ad90), point(220, 0.25, 0xe3c6a6), point(400, 0.9, kBone),
+          point(1400, 0.98, kTooth), point(3000, 0.99, 0xfbfaf6)};
 }
 
 std::vector<TransferPoint> ct_skin(const VolumeStatistics&) {
@@ -36,8 +38,9 @@ std::vector<TransferPoint> ct_skin(const VolumeStatistics&) {
 }
 
 std::vector<TransferPoint> ct_muscle_bone(const VolumeStatistics&) {
-  return {point(-30, 0, kMuscle),      point(20, 0.045, kMuscle), point(90, 0.09, kMuscle), point(130, 0.05, kVessel),
-          point(200, 0.25, 0xdcb598), point(400, 0.9, kBone),     point(1400, 0.98, kTooth)};
+  return {point(-30, 0, kMuscle),    point(20, 0.045, kMuscle),  point(90, 0.09, kMuscle),
+          point(130, 0.05, kVessel), point(200, 0.25, 0xdcb598), point(400, 0.9, kBone),
+          point(1400, 0.98, kTooth)};
 }
 
 /// Matter against air, opaque: the surface of a head.
@@ -51,15 +54,16 @@ std::vector<TransferPoint> mri_head(const VolumeStatistics& s) {
 
 std::vector<TransferPoint> fog(const VolumeStatistics& s) {
   const double lower = otsu_threshold(s);
-  return {point(lower, 0, 0xf4f4f4), point(std::max<double>(s.percentile(0.999), std::nextafter(lower, INFINITY)), 0.02, 0xf4f4f4)};
+  return {point(lower, 0, 0xf4f4f4),
+          point(std::max<double>(s.percentile(0.999), std::nextafter(lower, INFINITY)), 0.02, 0xf4f4f4)};
 }
 
 std::vector<TransferPoint> generic(const VolumeStatistics& s) {
   const double lower = otsu_threshold(s);
   const double upper = std::max<double>(s.percentile(0.999), std::nextafter(lower, INFINITY));
   const double width = upper - lower;
-  return {point(lower, 0, 0x4d6fa8), point(lower + 0.3 * width, 0.2, 0x7fb0c9), point(lower + 0.6 * width, 0.55, 0xe2c07a),
-          point(upper, 0.9, 0xf6e9d2)};
+  return {point(lower, 0, 0x4d6fa8), point(lower + 0.3 * width, 0.2, 0x7fb0c9),
+          point(lower + 0.6 * width, 0.55, 0xe2c07a), point(upper, 0.9, 0xf6e9d2)};
 }
 
 }  // namespace
@@ -125,7 +129,8 @@ const Preset& automatic_preset(const Volume& volume, const VolumeStatistics& sta
 double default_reference_length_mm(const Volume& volume, const VolumeStatistics& statistics) {
   if (is_hounsfield(volume, statistics)) return 1;
   double longest = 0;
-  for (int a = 0; a < 3; ++a) longest = std::max(longest, static_cast<double>(volume.size[a]) * volume.spacing_mm[a]);
+  for (int a = 0; a < 3; ++a)
+    longest = std::max(longest, static_cast<double>(volume.size[a]) * volume.spacing_mm[a]);
   return longest / 256;
 }
 

@@ -9,7 +9,8 @@
 
 namespace voxlume {
 
-/// A named transfer function. Those for CT are written in HU; the others take their data values from the volume.
+/// A named transfer function. Those for CT are written in HU; the others take their data values from the
+/// volume.
 struct Preset {
   std::string_view name;
   std::string_view summary;  ///< one line for `voxlume presets`
@@ -28,8 +29,8 @@ const Preset& automatic_preset(const Volume& volume, const VolumeStatistics& sta
 /// Whether the data is in Hounsfield units: its file says CT, or it says nothing and has air near -1000.
 bool is_hounsfield(const Volume& volume, const VolumeStatistics& statistics);
 
-/// The reference length opacities are drawn for when none is given [mm]: 1 for CT, else 1/256 of the volume's longest
-/// side.
+/// The reference length opacities are drawn for when none is given [mm]: 1 for CT, else 1/256 of the volume's
+/// longest side.
 double default_reference_length_mm(const Volume& volume, const VolumeStatistics& statistics);
 
 /// Otsu's threshold between background and matter: maximises the between-class variance of the histogram.

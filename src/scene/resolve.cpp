@@ -11,7 +11,9 @@
 namespace voxlume {
 namespace {
 
-Color grey_srgb(float encoded) { return {{linear_from_srgb(encoded), linear_from_srgb(encoded), linear_from_srgb(encoded)}}; }
+Color grey_srgb(float encoded) {
+  return {{linear_from_srgb(encoded), linear_from_srgb(encoded), linear_from_srgb(encoded)}};
+}
 
 /// A square light at `position` (in units of `radius_mm`, camera axes) that gives `irradiance` at the target.
 LightDescription soft_box(Double3 position, double edge, double irradiance, Color color, double radius_mm) {
@@ -72,7 +74,8 @@ BoundingSphere visible_sphere(const Volume& volume, const std::optional<ClipDesc
   return {{center.x, center.y, center.z}, std::max(radius, 1e-6)};
 }
 
-SceneDescription resolve(const SceneDescription& scene, const Volume& volume, const VolumeStatistics& statistics) {
+SceneDescription resolve(const SceneDescription& scene, const Volume& volume,
+                         const VolumeStatistics& statistics) {
   SceneDescription out = scene;
   TransferDescription& transfer = out.transfer;
   const bool own_points = !transfer.points.empty();
@@ -82,7 +85,8 @@ SceneDescription resolve(const SceneDescription& scene, const Volume& volume, co
     transfer.points = preset.points(statistics);
     transfer.preset = preset.name;
   }
-  if (!transfer.reference_length_mm) transfer.reference_length_mm = default_reference_length_mm(volume, statistics);
+  if (!transfer.reference_length_mm)
+    transfer.reference_length_mm = default_reference_length_mm(volume, statistics);
 
   const BoundingSphere sphere = visible_sphere(volume, scene.clip);
   if (!out.lights) out.lights = default_lights(sphere.radius_mm);

@@ -6,10 +6,10 @@ namespace voxlume {
 
 /// How a linear picture is developed for display.
 struct ToneMap {
-  double exposure_ev = 0;                    ///< radiance is multiplied by 2^EV first
-  ToneCurve curve = ToneCurve::kFilmic;      ///< kSrgb: clamp to [0,1] only
-  bool transparent = false;                  ///< keep alpha (four channels); else it is dropped
-  bool dither = false;                       ///< ordered dithering, 8 x 8, against bands in smooth gradients
+  double exposure_ev = 0;                ///< radiance is multiplied by 2^EV first
+  ToneCurve curve = ToneCurve::kFilmic;  ///< kSrgb: clamp to [0,1] only
+  bool transparent = false;              ///< keep alpha (four channels); else it is dropped
+  bool dither = false;                   ///< ordered dithering, 8 x 8, against bands in smooth gradients
 };
 
 /// The filmic curve, linear [0, inf) to linear [0, 1], increasing until it reaches 1 at about 10: Narkowicz

@@ -8,15 +8,16 @@ namespace {
 /// Visits the tentative collisions of a ray: a Poisson process of rate mu_maj. `visit(t, p_index, mu_maj)`
 /// returns true to stop.
 template <class Visit>
-void visit_tentative_collisions(const Medium& medium, const IndexRay& ray, float t_near, float t_far, Rng& rng,
-                                Visit&& visit) noexcept {
+void visit_tentative_collisions(const Medium& medium, const IndexRay& ray, float t_near, float t_far,
+                                Rng& rng, Visit&& visit) noexcept {
   MacrocellWalk walk(medium.majorant, ray.origin_index, ray.direction_index, t_near, t_far);
   MajorantSegment segment;
   float tau = sample_optical_depth(rng.next());
   while (walk.next(segment)) {
     if (segment.mu_maj <= 0) continue;
     const float inverse_majorant = 1.0f / segment.mu_maj;
-    // Distances are summed from where the segment starts: far from the eye, t is coarser than the steps may be.
+    // Distances are summed from where the segment starts: far from the eye, t is coarser than the steps may
+    // be.
     const float length_mm = segment.t_far - segment.t_near;
     float entered_mm = 0;
     for (;;) {

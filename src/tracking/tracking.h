@@ -15,14 +15,15 @@ struct TrackingCounters {
 
 /// Where a free flight ends.
 struct Collision {
-  bool real = false;      ///< false: left the interval without a collision
+  bool real = false;  ///< false: left the interval without a collision
   float t_mm = std::numeric_limits<float>::infinity();
   Vec3f p_index;
-  float value = 0;        ///< interpolated data at p_index
+  float value = 0;  ///< interpolated data at p_index
 };
 
 /// Delta (Woodcock) tracking on [t_near, t_far] mm: t has density mu_t(t) T(t). The residual optical depth is
-/// carried from cell to cell, which is exact by memorylessness. Draws two numbers per look-up, and one more at the start.
+/// carried from cell to cell, which is exact by memorylessness. Draws two numbers per look-up, and one more
+/// at the start.
 Collision sample_free_flight(const Medium& medium, const IndexRay& ray, float t_near, float t_far, Rng& rng,
                              TrackingCounters& counters) noexcept;
 

@@ -23,7 +23,8 @@ void validate(const TransferDescription& d) {
   if (!(d.reference_length_mm && *d.reference_length_mm > 0 && std::isfinite(*d.reference_length_mm)))
     throw Error(ErrorCode::kBadParameter, "/transfer/reference_length_mm", "expected a length above 0 mm");
   if (!(d.density_scale >= 0 && std::isfinite(d.density_scale)))
-    throw Error(ErrorCode::kBadParameter, "/transfer/density_scale", "expected a finite number of at least 0");
+    throw Error(ErrorCode::kBadParameter, "/transfer/density_scale",
+                "expected a finite number of at least 0");
   bool opacity = false, mu_t = false;
   for (std::size_t i = 0; i < d.points.size(); ++i) {
     const TransferPoint& p = d.points[i];
@@ -45,7 +46,8 @@ struct Curve {
 
   /// The limit at `value` from below or from above.
   Y limit(double value, bool from_above) const {
-    if (value < knots.front().first || (value == knots.front().first && !from_above)) return knots.front().second;
+    if (value < knots.front().first || (value == knots.front().first && !from_above))
+      return knots.front().second;
     if (value > knots.back().first || (value == knots.back().first && from_above)) return knots.back().second;
     const auto upper = from_above ? std::upper_bound(knots.begin(), knots.end(), value,
                                                      [](double v, const auto& k) { return v < k.first; })
@@ -72,8 +74,8 @@ std::optional<Vec3d> to_vec(const std::optional<Color>& color) {
   return Vec3d(color->linear[0], color->linear[1], color->linear[2]);
 }
 
-/// Adds the knots after (v0,o0) up to (v1,o1), so many that mu_t is linear in between to 1e-4 of itself in the middle,
-/// which is 2e-4 anywhere. Knots are floats.
+/// Adds the knots after (v0,o0) up to (v1,o1), so many that mu_t is linear in between to 1e-4 of itself in
+/// the middle, which is 2e-4 anywhere. Knots are floats.
 void refine_opacity(double v0, double o0, double v1, double o1, double reference_mm,
                     std::vector<std::pair<double, double>>& out, int depth = 0) {
   const double v = static_cast<float>(0.5 * (v0 + v1)), share = (v - v0) / (v1 - v0);
@@ -104,8 +106,10 @@ void split_at_saturation(Curve<double>& opacity) {
 }
 
 Curve<double> extinction_curve(const TransferDescription& d) {
-  Curve<double> mu_t = collect<double>(d.points, [](const auto& p) { return p.mu_t_per_mm; }, 0.0);
-  Curve<double> opacity = collect<double>(d.points, [](const auto& p) { return p.opacity; }, 0.0);
+  Curve<double> mu_t = collect<double>(
+      d.points, [](const auto& p) { return p.mu_t_per_mm; }, 0.0);
+  Curve<double> opacity = collect<double>(
+      d.points, [](const auto& p) { return p.opacity; }, 0.0);
   split_at_saturation(opacity);
   if (std::any_of(d.points.begin(), d.points.end(), [](const auto& p) { return p.opacity.has_value(); })) {
     mu_t.knots.clear();
@@ -114,8 +118,8 @@ Curve<double> extinction_curve(const TransferDescription& d) {
       if (i == 0 || opacity.knots[i - 1].first == v1) {
         mu_t.knots.emplace_back(v1, mu_t_from_opacity(o1, *d.reference_length_mm));
       } else {
-        refine_opacity(opacity.knots[i - 1].first, opacity.knots[i - 1].second, v1, o1, *d.reference_length_mm,
-                       mu_t.knots);
+        refine_opacity(opacity.knots[i - 1].first, opacity.knots[i - 1].second, v1, o1,
+                       *d.reference_length_mm, mu_t.knots);
       }
     }
   }
@@ -135,11 +139,13 @@ double mu_t_from_opacity(double opacity, double reference_length_mm) {
 
 TransferFunction::TransferFunction(const TransferDescription& d) {
   validate(d);
-  reference_length_mm_ =
-      static_cast<float>(d.density_scale > 0 ? *d.reference_length_mm / d.density_scale : *d.reference_length_mm);
+  reference_length_mm_ = static_cast<float>(d.density_scale > 0 ? *d.reference_length_mm / d.density_scale
+                                                                : *d.reference_length_mm);
   const Curve<double> mu_t = extinction_curve(d);
-  const Curve<Vec3d> albedo = collect<Vec3d>(d.points, [](const auto& p) { return to_vec(p.color); }, kDefaultAlbedo);
-  const Curve<Vec3d> emission = collect<Vec3d>(d.points, [](const auto& p) { return to_vec(p.emission); }, Vec3d(0));
+  const Curve<Vec3d> albedo = collect<Vec3d>(
+      d.points, [](const auto& p) { return to_vec(p.color); }, kDefaultAlbedo);
+  const Curve<Vec3d> emission = collect<Vec3d>(
+      d.points, [](const auto& p) { return to_vec(p.emission); }, Vec3d(0));
 
   std::vector<double> cuts;
   for (const auto& knot : mu_t.knots) cuts.push_back(knot.first);
@@ -175,7 +181,8 @@ TransferFunction::TransferFunction(const TransferDescription& d) {
   std::int32_t piece = 0;
   for (int b = 0; b < kBuckets; ++b) {
     const float value = origin + width * static_cast<float>(b) / kBuckets;
-    while (piece + 1 < static_cast<std::int32_t>(pieces_.size()) && value >= pieces_[piece + 1].start) ++piece;
+    while (piece + 1 < static_cast<std::int32_t>(pieces_.size()) && value >= pieces_[piece + 1].start)
+      ++piece;
     bucket_piece_.push_back(piece);
   }
 
@@ -219,11 +226,14 @@ float TransferFunction::max_mu_t(float lower, float upper) const {
   if (count > 0) {
     int level = 0;
     while ((std::ptrdiff_t{2} << level) <= count) ++level;
-    maximum = std::max({maximum, range_max_[level][first + 1], range_max_[level][last - (std::ptrdiff_t{1} << level)]});
+    maximum = std::max(
+        {maximum, range_max_[level][first + 1], range_max_[level][last - (std::ptrdiff_t{1} << level)]});
   }
   return maximum;
 }
 
-float TransferFunction::max_mu_t() const { return max_mu_t(-std::numeric_limits<float>::max(), std::numeric_limits<float>::max()); }
+float TransferFunction::max_mu_t() const {
+  return max_mu_t(-std::numeric_limits<float>::max(), std::numeric_limits<float>::max());
+}
 
 }  // namespace voxlume

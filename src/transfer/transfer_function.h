@@ -9,11 +9,11 @@ namespace voxlume {
 /// Compiled 1-D transfer function with range maxima. Immutable.
 class TransferFunction {
  public:
-  /// Compiles `description`, whose reference length and points are given. Without any extinction curve nothing
-  /// is visible; without a colour curve the albedo is 0.8 grey.
-  /// mu_t = density_scale * -ln(1 - min(o, 0.9999)) / reference_length_mm; opacity segments are cut until
-  /// interpolating mu_t is within 2e-4 of that. Values are rounded to floats; equal floats are a step.
-  /// Throws Error kBadParameter with the JSON path of what is wrong.
+  /// Compiles `description`, whose reference length and points are given. Without any extinction curve
+  /// nothing is visible; without a colour curve the albedo is 0.8 grey. mu_t = density_scale * -ln(1 - min(o,
+  /// 0.9999)) / reference_length_mm; opacity segments are cut until interpolating mu_t is within 2e-4 of
+  /// that. Values are rounded to floats; equal floats are a step. Throws Error kBadParameter with the JSON
+  /// path of what is wrong.
   explicit TransferFunction(const TransferDescription& description);
 
   TransferView view() const;

@@ -7,9 +7,9 @@ namespace voxlume {
 
 /// One linear piece of a transfer function, in force on [start, next piece's start).
 struct TransferPiece {
-  float start;                 ///< data units; -inf for the first piece
-  float anchor;                ///< data value at which the constants hold
-  float mu_t, mu_t_slope;      ///< 1/mm, 1/mm per data unit
+  float start;             ///< data units; -inf for the first piece
+  float anchor;            ///< data value at which the constants hold
+  float mu_t, mu_t_slope;  ///< 1/mm, 1/mm per data unit
   Vec3f albedo, albedo_slope;
   Vec3f emission, emission_slope;
 };
@@ -22,7 +22,8 @@ struct Coefficients {
   Vec3f emission;  ///< L_e; the source term is mu_t * L_e
 };
 
-/// A compiled 1-D function as kernels see it. Piecewise linear in mu_t: opacity curves are cut finely when compiled.
+/// A compiled 1-D function as kernels see it. Piecewise linear in mu_t: opacity curves are cut finely when
+/// compiled.
 struct TransferView {
   const TransferPiece* pieces = nullptr;
   std::int32_t piece_count = 0;
@@ -36,7 +37,8 @@ inline const TransferPiece& find_piece(const TransferView& tf, float value) noex
   // Written so that NaN falls into bucket 0.
   const float at = (value - tf.bucket_origin) * tf.buckets_per_unit;
   const std::int32_t bucket =
-      at > 0 ? (at < static_cast<float>(tf.bucket_count - 1) ? static_cast<std::int32_t>(at) : tf.bucket_count - 1)
+      at > 0 ? (at < static_cast<float>(tf.bucket_count - 1) ? static_cast<std::int32_t>(at)
+                                                             : tf.bucket_count - 1)
              : 0;
   std::int32_t piece = tf.bucket_piece[bucket];
   while (piece + 1 < tf.piece_count && value >= tf.pieces[piece + 1].start) ++piece;

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "volume_io/dicom_group.h"
 #include "base/fail.h"
+#include "volume_io/dicom_group.h"
 #include "volume_io/slice_order.h"
 #include "volume_io/voxel_convert.h"
 

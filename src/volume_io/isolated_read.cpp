@@ -14,9 +14,9 @@
 #include <cstring>
 #include <mutex>
 
+#include "base/fail.h"
 #include "volume_io/child_limits.h"
 #include "volume_io/child_watch.h"
-#include "base/fail.h"
 #include "volume_io/memory_limit.h"
 #include "volume_io/read_result.h"
 #include "volume_io/staged_read.h"

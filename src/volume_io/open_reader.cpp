@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "volume_io/dicom_series.h"
 #include "base/fail.h"
+#include "volume_io/dicom_series.h"
 #include "volume_io/file_format.h"
 #include "volume_io/itk_read.h"
 #include "volume_io/natural_order.h"

@@ -6,8 +6,8 @@
 #include <new>
 
 #include "base/fail.h"
-#include "volume_io/library_message.h"
 #include "volume_io/geometry_check.h"
+#include "volume_io/library_message.h"
 #include "volume_io/memory_limit.h"
 #include "volume_io/volume_reader.h"
 #include "volume_io/voxel_convert.h"

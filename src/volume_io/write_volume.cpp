@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "base/fail.h"
-#include "volume_io/library_message.h"
 #include "volume_io/file_format.h"
 #include "volume_io/geometry_check.h"
 #include "volume_io/isolated_read.h"
+#include "volume_io/library_message.h"
 #include "volume_io/volume_writers.h"
 #include "voxlume/volume_io.h"
 

@@ -1,5 +1,5 @@
-// Estimators that must have the same mean: Exposure Render's event choice and coexistence; next-event estimation,
-// direction sampling and both.
+// Estimators that must have the same mean: Exposure Render's event choice and coexistence; next-event
+// estimation, direction sampling and both.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -43,7 +43,8 @@ LightDescription area_light() {
 /// As many equal contributions would have this mean and variance: below some dozens a mean is not normal.
 double effective_count(const Moments& m) { return m.sum2 > 0 ? m.sum * m.sum / m.sum2 : 0; }
 
-/// Compares the means of the 8x8-pixel blocks that hold enough light for their z values to be normal, and of the picture.
+/// Compares the means of the 8x8-pixel blocks that hold enough light for their z values to be normal, and of
+/// the picture.
 void expect_same_mean(const Estimate& a, const Estimate& b) {
   double sum2 = 0, worst = 0;
   int blocks = 0;
@@ -80,9 +81,10 @@ TEST(Agreement, ExposureRenderAndCoexistence) {
   }
 }
 
-/// Var(M_ER) = Var(M_h) + E[P_b P_p (F_b - F_p)^2], for light sampling alone and one scattering (Rao-Blackwell).
-/// The BRDF-only and phase-only renders with the same seed see the same positions and shadow rays, so their samples are
-/// F_b and F_p; with M_h between them, P_b P_p (F_b - F_p)^2 = (M_h - F_p)(F_b - M_h).
+/// Var(M_ER) = Var(M_h) + E[P_b P_p (F_b - F_p)^2], for light sampling alone and one scattering
+/// (Rao-Blackwell). The BRDF-only and phase-only renders with the same seed see the same positions and shadow
+/// rays, so their samples are F_b and F_p; with M_h between them, P_b P_p (F_b - F_p)^2 = (M_h - F_p)(F_b -
+/// M_h).
 TEST(Agreement, VarianceGapOfTheEventChoiceIsThePredictedOne) {
   SceneDescription scene = blob_scene();
   scene.image.width = scene.image.height = 8;
@@ -98,8 +100,8 @@ TEST(Agreement, VarianceGapOfTheEventChoiceIsThePredictedOne) {
     d.material.shading = shading;
     return std::make_unique<CompiledScene>(resolve(d, volume, statistics), volume, statistics);
   };
-  const auto mixed = compile(Shading::kCoexistence), brdf = compile(Shading::kBrdf), phase = compile(Shading::kPhase),
-             chosen = compile(Shading::kExposureRender);
+  const auto mixed = compile(Shading::kCoexistence), brdf = compile(Shading::kBrdf),
+             phase = compile(Shading::kPhase), chosen = compile(Shading::kExposureRender);
   const auto sample = [](const CompiledScene& s, int x, int y, int i) {
     TraceCounters counters;
     return static_cast<double>(luminance(trace_camera_sample(s.view(), x, y, i, counters).radiance));
@@ -148,7 +150,8 @@ const std::string& sky_file() {
     Image sky(32, 16);
     for (int y = 0; y < 16; ++y)
       for (int x = 0; x < 32; ++x)
-        for (int c = 0; c < 4; ++c) sky.pixel(x, y)[c] = c == 3 ? 1.0f : 0.1f * static_cast<float>(16 - y) / 16;
+        for (int c = 0; c < 4; ++c)
+          sky.pixel(x, y)[c] = c == 3 ? 1.0f : 0.1f * static_cast<float>(16 - y) / 16;
     for (int y = 2; y < 7; ++y)
       for (int x = 4; x < 10; ++x)
         for (int c = 0; c < 3; ++c) sky.pixel(x, y)[c] = 8;
@@ -178,7 +181,8 @@ TEST_P(Techniques, AgreeInMean) {
   };
   const Estimate both = with("mis", 1), light_only = with("light", 2);
   expect_same_mean(both, light_only);
-  const bool findable = std::string_view(light.name) != "point" && std::string_view(light.name) != "directional";
+  const bool findable =
+      std::string_view(light.name) != "point" && std::string_view(light.name) != "directional";
   if (findable) {
     const Estimate direction_only = with("direction", 3);
     expect_same_mean(both, direction_only);
@@ -188,55 +192,58 @@ TEST_P(Techniques, AgreeInMean) {
 
 INSTANTIATE_TEST_SUITE_P(
     EveryLightAtEveryLimit, Techniques,
-    testing::Combine(testing::Values(LightCase{"constant", [](SceneDescription& s) { s.environment->intensity = 1; }},
-                                     LightCase{"picture",
-                                               [](SceneDescription& s) {
-                                                 s.environment->intensity = 1;
-                                                 s.environment->image = sky_file();
-                                                 s.environment->rotation_deg = 40;
-                                               }},
-                                     LightCase{"rect", [](SceneDescription& s) { s.lights = {area_light()}; }},
-                                     LightCase{"rect_inside",
-                                               [](SceneDescription& s) {
-                                                 LightDescription l = area_light();
-                                                 l.position_mm = Double3{-2, -6, 4};
-                                                 l.size_mm = {12, 12};
-                                                 l.two_sided = true;
-                                                 s.lights = {l};
-                                               }},
-                                     LightCase{"rect_and_constant",
-                                               [](SceneDescription& s) {
-                                                 s.lights = {area_light()};
-                                                 s.environment->intensity = 0.5;
-                                               }},
-                                     LightCase{"clip_blocks_light",
-                                               [](SceneDescription& s) {
-                                                 s.lights = {area_light()};
-                                                 s.environment->intensity = 0.5;
-                                                 s.clip.emplace();
-                                                 s.clip->z_mm = {-1e30, 2};
-                                                 s.clip->blocks_light = true;
-                                               }},
-                                     LightCase{"glossy_forward",
-                                               [](SceneDescription& s) {
-                                                 s.lights = {area_light()};
-                                                 s.environment->intensity = 0.5;
-                                                 s.material.roughness = 0.2;
-                                                 s.material.specular = 1;
-                                                 s.material.anisotropy = 0.7;
-                                                 s.material.gradient_factor = 1;
-                                               }},
-                                     LightCase{"point",
-                                               [](SceneDescription& s) {
-                                                 LightDescription l;
-                                                 l.kind = LightKind::kPoint;
-                                                 l.position_mm = Double3{-30, -40, 30};
-                                                 l.intensity = 5000;
-                                                 s.lights = {l};
-                                               }},
-                                     LightCase{"directional",
-                                               [](SceneDescription& s) { s.lights = {directional({-1, -1, 1}, 3)}; }}),
-                     testing::Values(1, 2, 0)),
+    testing::Combine(
+        testing::Values(LightCase{"constant", [](SceneDescription& s) { s.environment->intensity = 1; }},
+                        LightCase{"picture",
+                                  [](SceneDescription& s) {
+                                    s.environment->intensity = 1;
+                                    s.environment->image = sky_file();
+                                    s.environment->rotation_deg = 40;
+                                  }},
+                        LightCase{"rect", [](SceneDescription& s) { s.lights = {area_light()}; }},
+                        LightCase{"rect_inside",
+                                  [](SceneDescription& s) {
+                                    LightDescription l = area_light();
+                                    l.position_mm = Double3{-2, -6, 4};
+                                    l.size_mm = {12, 12};
+                                    l.two_sided = true;
+                                    s.lights = {l};
+                                  }},
+                        LightCase{"rect_and_constant",
+                                  [](SceneDescription& s) {
+                                    s.lights = {area_light()};
+                                    s.environment->intensity = 0.5;
+                                  }},
+                        LightCase{"clip_blocks_light",
+                                  [](SceneDescription& s) {
+                                    s.lights = {area_light()};
+                                    s.environment->intensity = 0.5;
+                                    s.clip.emplace();
+                                    s.clip->z_mm = {-1e30, 2};
+                                    s.clip->blocks_light = true;
+                                  }},
+                        LightCase{"glossy_forward",
+                                  [](SceneDescription& s) {
+                                    s.lights = {area_light()};
+                                    s.environment->intensity = 0.5;
+                                    s.material.roughness = 0.2;
+                                    s.material.specular = 1;
+                                    s.material.anisotropy = 0.7;
+                                    s.material.gradient_factor = 1;
+                                  }},
+                        LightCase{"point",
+                                  [](SceneDescription& s) {
+                                    LightDescription l;
+                                    l.kind = LightKind::kPoint;
+                                    l.position_mm = Double3{-30, -40, 30};
+                                    l.intensity = 5000;
+                                    s.lights = {l};
+                                  }},
+                        LightCase{"directional",
+                                  [](SceneDescription& s) {
+                                    s.lights = {directional({-1, -1, 1}, 3)};
+                                  }}),
+        testing::Values(1, 2, 0)),
     [](const auto& named) {
       return std::string(std::get<0>(named.param).name) + "_limit" + std::to_string(std::get<1>(named.param));
     });

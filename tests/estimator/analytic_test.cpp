@@ -1,4 +1,5 @@
-// Pictures that have a closed form (shared references: Chandrasekhar's H function, the single-scattering slab).
+// Pictures that have a closed form (shared references: Chandrasekhar's H function, the single-scattering
+// slab).
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -38,7 +39,8 @@ TEST(Analytic, AbsorbingAndEmittingSlab) {
     scene.transfer.points[0].emission = grey(0.7f);
     scene.background->color = grey(2);
     const double transmittance = std::exp(-mu_t * 6.0);
-    expect_mean(estimate(scene, block({2, 2, 2}), 20000).total(), 2 * transmittance + 0.7 * (1 - transmittance));
+    expect_mean(estimate(scene, block({2, 2, 2}), 20000).total(),
+                2 * transmittance + 0.7 * (1 - transmittance));
   }
 }
 
@@ -50,7 +52,8 @@ TEST(Analytic, SingleScatteringSlabLitFromTheFront) {
       SceneDescription scene = middle_view(tau / 12, albedo);
       scene.lights = {directional({std::sqrt(1 - mu0 * mu0), -mu0, 0}, irradiance)};
       scene.render.max_scatter = 1;
-      const double expected = albedo * irradiance / (4 * kPi) * (1 - std::exp(-tau * (1 + 1 / mu0))) / (1 + 1 / mu0);
+      const double expected =
+          albedo * irradiance / (4 * kPi) * (1 - std::exp(-tau * (1 + 1 / mu0))) / (1 + 1 / mu0);
       expect_mean(estimate(scene, block({4000, 4, 4000}), 10000).total(), expected);
     }
   }
@@ -93,8 +96,9 @@ TEST(Analytic, PointLightFallsOffWithTheSquareOfTheDistance) {
 }
 
 TEST(Analytic, RectLightOnAWallOfLambertianParticles) {
-  // A step in the data is a wall; BRDF only. Light that enters at cosine mu and leaves along the normal passes the same
-  // matter twice: single scattering reflects albedo/pi * mu/(1 + mu) of the irradiance per solid angle.
+  // A step in the data is a wall; BRDF only. Light that enters at cosine mu and leaves along the normal
+  // passes the same matter twice: single scattering reflects albedo/pi * mu/(1 + mu) of the irradiance per
+  // solid angle.
   const Volume volume = make_volume({41, 41, 41}, 1.0, [](Vec3d p) { return p.y > 0 ? 100.0 : 0.0; });
   SceneDescription scene = dark_scene(4, 4);
   scene.camera.height_mm = 0.5;

@@ -1,4 +1,5 @@
-// What the path tracer does beside scattering: labels, ambient light, lenses, backgrounds, places far from the origin.
+// What the path tracer does beside scattering: labels, ambient light, lenses, backgrounds, places far from
+// the origin.
 #include <gtest/gtest.h>
 
 #include "render/render_loop.h"
@@ -39,9 +40,12 @@ CompiledScene compile(const SceneDescription& description, const Volume& volume)
 }
 
 TEST(Features, LabelsColourWhatLiesInThemOnAnyGrid) {
-  // Red left of x = 0 and green right of it, below z = 0 alone; a coarser, flipped grid of floats, as scaled files have.
+  // Red left of x = 0 and green right of it, below z = 0 alone; a coarser, flipped grid of floats, as scaled
+  // files have.
   const TemporaryFolder folder;
-  Volume labels = make_volume({8, 9, 10}, 5.0, [](Vec3d p) { return p.z > 0 ? 0.0 : p.x < 0 ? 1.0 : 2.0; },
+  Volume labels = make_volume({8, 9, 10}, 5.0, [](Vec3d p) { return p.z > 0   ? 0.0
+                                                                    : p.x < 0 ? 1.0
+                                                                              : 2.0; },
                               {-1, 0, 0, 0, 1, 0, 0, 0, -1});
   const std::string path = (folder / "labels.nrrd").string();
   write_volume(labels, path);
@@ -117,7 +121,8 @@ TEST(Features, BackgroundBlurAveragesTheEnvironmentOverItsCone) {
 }
 
 TEST(Features, TheSamePictureFarFromTheOrigin) {
-  const Volume near = make_volume({24, 24, 24}, 0.05, [](Vec3d p) { return std::max(0.0, 1 - length(p) / 0.5); });
+  const Volume near =
+      make_volume({24, 24, 24}, 0.05, [](Vec3d p) { return std::max(0.0, 1 - length(p) / 0.5); });
   Volume far = near;
   const Double3 offset{3e6, -2e6, 1e6};
   for (std::size_t a = 0; a < 3; ++a) far.origin_mm[a] += offset[a];
@@ -138,7 +143,8 @@ TEST(Features, TheSamePictureFarFromTheOrigin) {
 }
 
 TEST(Features, TheRenderLoopGivesOneFilmForAnyThreadsTilesAndOrder) {
-  const Volume volume = make_volume({24, 24, 24}, 2.0, [](Vec3d p) { return std::max(0.0, 1.2 - length(p) / 20); });
+  const Volume volume =
+      make_volume({24, 24, 24}, 2.0, [](Vec3d p) { return std::max(0.0, 1.2 - length(p) / 20); });
   SceneDescription description = dark_scene(37, 29);
   description.environment->intensity = 1;
   description.transfer.points = {point(0.1, 0, grey(0.9f)), point(0.6, 2, grey(0.9f))};
@@ -159,7 +165,8 @@ TEST(Features, TheRenderLoopGivesOneFilmForAnyThreadsTilesAndOrder) {
           },
           options);
       std::vector<std::byte> bytes;
-      for (const auto& span : std::as_const(state.film).accumulators()) bytes.insert(bytes.end(), span.begin(), span.end());
+      for (const auto& span : std::as_const(state.film).accumulators())
+        bytes.insert(bytes.end(), span.begin(), span.end());
       if (first.empty()) first = bytes;
       EXPECT_TRUE(bytes == first) << threads << " threads, tiles of " << tile_size;
     }

@@ -57,25 +57,25 @@ TEST_P(Furnace, RendersToOneEverywhere) {
   EXPECT_LT(z2, 64 + 5 * std::sqrt(128.0));
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    LambertAndPhase, Furnace,
-    testing::Values(FurnaceCase{0.02, 0, Shading::kPhase, 0, 0, "mis"},
-                    FurnaceCase{0.5, 0, Shading::kPhase, 0, 0, "mis"},
-                    FurnaceCase{0.5, 0.8, Shading::kPhase, 0, 0, "mis"},
-                    FurnaceCase{0.5, -0.6, Shading::kPhase, 0, 0, "light"},
-                    FurnaceCase{5.0, 0.3, Shading::kPhase, 0, 0, "direction"},
-                    FurnaceCase{0.2, 0, Shading::kCoexistence, 0.5, 0, "mis"},
-                    FurnaceCase{1.0, 0.5, Shading::kCoexistence, 1.0, 0, "mis"},
-                    FurnaceCase{1.0, 0.5, Shading::kCoexistence, 0.8, 0, "light"},
-                    FurnaceCase{4.0, 0, Shading::kCoexistence, 1.0, 0, "direction"},
-                    FurnaceCase{1.0, 0.5, Shading::kExposureRender, 0.8, 0, "mis"},
-                    FurnaceCase{1.0, 0, Shading::kBrdf, 1.0, 0, "mis"}),
-    case_name);
+INSTANTIATE_TEST_SUITE_P(LambertAndPhase, Furnace,
+                         testing::Values(FurnaceCase{0.02, 0, Shading::kPhase, 0, 0, "mis"},
+                                         FurnaceCase{0.5, 0, Shading::kPhase, 0, 0, "mis"},
+                                         FurnaceCase{0.5, 0.8, Shading::kPhase, 0, 0, "mis"},
+                                         FurnaceCase{0.5, -0.6, Shading::kPhase, 0, 0, "light"},
+                                         FurnaceCase{5.0, 0.3, Shading::kPhase, 0, 0, "direction"},
+                                         FurnaceCase{0.2, 0, Shading::kCoexistence, 0.5, 0, "mis"},
+                                         FurnaceCase{1.0, 0.5, Shading::kCoexistence, 1.0, 0, "mis"},
+                                         FurnaceCase{1.0, 0.5, Shading::kCoexistence, 0.8, 0, "light"},
+                                         FurnaceCase{4.0, 0, Shading::kCoexistence, 1.0, 0, "direction"},
+                                         FurnaceCase{1.0, 0.5, Shading::kExposureRender, 0.8, 0, "mis"},
+                                         FurnaceCase{1.0, 0, Shading::kBrdf, 1.0, 0, "mis"}),
+                         case_name);
 
 TEST(Furnace, SpecularLobeNeverGainsEnergy) {
   for (const double mu_t : {0.2, 2.0}) {
     const Estimate image = render_furnace({mu_t, 0, Shading::kBrdf, 1, 1, "mis"}, 800);
-    for (const Moments& pixel : image.pixels) EXPECT_LT(pixel.mean(), 1 + 4.5 * pixel.standard_error() + 1e-4);
+    for (const Moments& pixel : image.pixels)
+      EXPECT_LT(pixel.mean(), 1 + 4.5 * pixel.standard_error() + 1e-4);
     EXPECT_GT(image.total().mean(), 0.5);
   }
 }

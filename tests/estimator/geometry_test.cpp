@@ -30,8 +30,8 @@ TEST(Geometry, AnObliqueVolumeLooksLikeAnAxialOneFromTheSamePlace) {
   // Turned 30 degrees about z and 20 about x, the index axes permuted and one flipped.
   const double cz = std::cos(0.5236), sz = std::sin(0.5236), cx = std::cos(0.3491), sx = std::sin(0.3491);
   const Vec3d i(cz, sz, 0), j(-sz * cx, cz * cx, sx), k(sz * sx, -cz * sx, cx);
-  const Volume oblique = make_volume({96, 96, 96}, 1.25, lopsided_head,
-                                     {k.x, -i.x, j.x, k.y, -i.y, j.y, k.z, -i.z, j.z});
+  const Volume oblique =
+      make_volume({96, 96, 96}, 1.25, lopsided_head, {k.x, -i.x, j.x, k.y, -i.y, j.y, k.z, -i.z, j.z});
   const SceneDescription scene = head_scene();
   const Estimate a = estimate(scene, axial, 64), b = estimate(scene, oblique, 64);
   double difference2 = 0, signal2 = 0, noise2 = 0;
@@ -66,7 +66,7 @@ TEST(Geometry, ThePatientsLeftIsOnTheRightOfAFrontalPicture) {
       (y < 8 ? top : bottom) += value;
     }
   }
-  EXPECT_GT(right, 2 * left);   // the blob at +x; the one on top straddles the middle
+  EXPECT_GT(right, 2 * left);  // the blob at +x; the one on top straddles the middle
   EXPECT_GT(top, 2 * bottom);
 }
 
@@ -96,8 +96,9 @@ TEST(Geometry, WhatIsCutAwayLetsLightPassOrBlocksIt) {
 }
 
 TEST(Geometry, CutFacesAreShadedAsSurfaces) {
-  // A homogeneous block has no gradient: without the face's normal it would scatter as a medium alone. A surface lobe
-  // lit and seen along its normal is brighter than the isotropic phase function: 1/pi against 1/(4 pi).
+  // A homogeneous block has no gradient: without the face's normal it would scatter as a medium alone. A
+  // surface lobe lit and seen along its normal is brighter than the isotropic phase function: 1/pi against
+  // 1/(4 pi).
   SceneDescription scene = cut_scene();
   scene.material.shading = Shading::kPhase;
   const double medium = estimate(scene, block(), 400).total().mean();

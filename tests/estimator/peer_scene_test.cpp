@@ -1,5 +1,5 @@
-// The peer scene (bench/scenes/peer.json) has known means on the lit forehead: an independent brute-force Monte Carlo gave
-// 0.3512 +- 0.0005 with single scattering and 0.777 +- 0.001 with up to 100.
+// The peer scene (bench/scenes/peer.json) has known means on the lit forehead: an independent brute-force
+// Monte Carlo gave 0.3512 +- 0.0005 with single scattering and 0.777 +- 0.001 with up to 100.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -23,9 +23,9 @@ Moments forehead(int max_scatter, int spp) {
     TraceCounters counters;
     for (int x = 240; x < 370; ++x)
       for (int s = 0; s < spp; ++s)
-        rows[row].add(luminance(
-            trace_camera_sample(scene.view(), x, static_cast<int>(130 + row), static_cast<std::uint32_t>(s), counters)
-                .radiance));
+        rows[row].add(luminance(trace_camera_sample(scene.view(), x, static_cast<int>(130 + row),
+                                                    static_cast<std::uint32_t>(s), counters)
+                                    .radiance));
   });
   Moments total;
   for (const Moments& row : rows) total += row;

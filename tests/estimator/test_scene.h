@@ -106,7 +106,8 @@ struct Estimate {
   Moments block(int bx, int by, int edge) const {
     Moments sum;
     for (int y = by * edge; y < (by + 1) * edge; ++y)
-      for (int x = bx * edge; x < (bx + 1) * edge; ++x) sum += pixels[static_cast<std::size_t>(y) * width + x];
+      for (int x = bx * edge; x < (bx + 1) * edge; ++x)
+        sum += pixels[static_cast<std::size_t>(y) * width + x];
     return sum;
   }
   Moments total() const {
@@ -128,9 +129,10 @@ inline Estimate estimate(const SceneDescription& description, const Volume& volu
   parallel_for(out.height, 1, [&](std::int64_t y) {
     for (int x = 0; x < out.width; ++x)
       for (int s = 0; s < spp; ++s)
-        out.pixels[y * out.width + x].add(luminance(
-            trace_camera_sample(scene.view(), x, static_cast<int>(y), static_cast<std::uint32_t>(s), counters[y])
-                .radiance));
+        out.pixels[y * out.width + x].add(
+            luminance(trace_camera_sample(scene.view(), x, static_cast<int>(y), static_cast<std::uint32_t>(s),
+                                          counters[y])
+                          .radiance));
   });
   for (const TraceCounters& c : counters) out.counters += c;
   return out;

@@ -142,7 +142,8 @@ class Gradient : public testing::TestWithParam<int> {};
 TEST_P(Gradient, LinearFieldIsExactInLps) {
   const test::Placement placement = test::placements()[static_cast<std::size_t>(GetParam())];
   const Vec3d slope(3.0, -1.5, 0.75);  // per mm, LPS
-  Volume volume = make_volume<float>({12, 14, 10}, [](auto, auto, auto) { return 0; }, placement);
+  Volume volume = make_volume<float>(
+      {12, 14, 10}, [](auto, auto, auto) { return 0; }, placement);
   const Affined world = world_from_index(volume);
   const Vec3d origin(placement.origin_mm[0], placement.origin_mm[1], placement.origin_mm[2]);
   volume = make_volume<float>(

@@ -94,7 +94,9 @@ TYPED_TEST(Statistics, GradientPercentileAgreesWithSorting) {
 TEST(Statistics, PaddingDoesNotChangeTheGradientScale) {
   const auto ball = [](std::int64_t n) {
     return make_volume<std::uint8_t>({n, n, n}, [n](auto i, auto j, auto k) {
-      const auto d = [n](std::int64_t x) { return static_cast<double>(x) - 0.5 * static_cast<double>(n - 1); };
+      const auto d = [n](std::int64_t x) {
+        return static_cast<double>(x) - 0.5 * static_cast<double>(n - 1);
+      };
       return std::max(0.0, 200 - 20 * std::hypot(d(i), d(j), d(k)));
     });
   };

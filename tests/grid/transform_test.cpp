@@ -11,7 +11,8 @@ using test::Placement;
 using test::placements;
 
 Volume placed(const Placement& placement) {
-  return make_volume<std::uint8_t>({3, 5, 7}, [](auto, auto, auto) { return 1; }, placement);
+  return make_volume<std::uint8_t>(
+      {3, 5, 7}, [](auto, auto, auto) { return 1; }, placement);
 }
 
 /// origin + direction * (spacing * index), from the matrix as it stands in the header of a file.

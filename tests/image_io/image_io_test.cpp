@@ -202,9 +202,13 @@ TEST_F(ImageIo, WritersRefuseWrongSizes) {
   image.rgba.pop_back();
   EXPECT_EQ(error_of([&] { write_exr(image, folder_ / "a.exr"); }).code(), ErrorCode::kBadParameter);
   EXPECT_EQ(error_of([&] { write_exr(Image(), folder_ / "a.exr"); }).code(), ErrorCode::kBadParameter);
-  EXPECT_EQ(error_of([&] { write_png({2, 2, 3, {1, 2}, {}}, folder_ / "a.png"); }).code(),
+  EXPECT_EQ(error_of([&] {
+              write_png({2, 2, 3, {1, 2}, {}}, folder_ / "a.png");
+            }).code(),
             ErrorCode::kBadParameter);
-  EXPECT_EQ(error_of([&] { write_png({1, 1, 2, {1, 2}, {}}, folder_ / "a.png"); }).code(),
+  EXPECT_EQ(error_of([&] {
+              write_png({1, 1, 2, {1, 2}, {}}, folder_ / "a.png");
+            }).code(),
             ErrorCode::kBadParameter);
   EXPECT_EQ(folder_.entry_count(), 0u);
 }

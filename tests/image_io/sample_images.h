@@ -13,8 +13,12 @@ inline Image sample_image(int width, int height, unsigned seed = 1) {
   const auto next = [&] { return static_cast<float>(std::pow(10.0, 8e0 * generator() * 0x1p-32 - 4)); };
   Image image(width, height);
   for (float& value : image.rgba) value = next();
-  image.layers = {{"alpha", {"Y"}, {}},          {"depth", {"Z"}, {}},   {"normal", {"X", "Y", "Z"}, {}},
-                  {"albedo", {"R", "G", "B"}, {}}, {"samples", {"Y"}, {}}, {"variance", {"Y"}, {}}};
+  image.layers = {{"alpha", {"Y"}, {}},
+                  {"depth", {"Z"}, {}},
+                  {"normal", {"X", "Y", "Z"}, {}},
+                  {"albedo", {"R", "G", "B"}, {}},
+                  {"samples", {"Y"}, {}},
+                  {"variance", {"Y"}, {}}};
   for (ImageLayer& layer : image.layers) {
     layer.values.resize(image.pixel_count() * layer.channels.size());
     for (float& value : layer.values) value = next() - 1;

@@ -8,8 +8,8 @@
 #include <optional>
 #include <random>
 
-#include "support/temporary_folder.h"
 #include "render/synthetic_trace.h"
+#include "support/temporary_folder.h"
 #include "voxlume/error.h"
 
 namespace voxlume {

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "render/statistics.h"
-#include "support/temporary_folder.h"
 #include "render/synthetic_trace.h"
+#include "support/temporary_folder.h"
 #include "voxlume/error.h"
 
 namespace voxlume {
@@ -69,10 +69,9 @@ TEST(Statistics, HoldsEveryKey) {
   const test::TemporaryFolder folder;
   write_statistics(statistics, folder / "stats.json");
   const auto json = nlohmann::json::parse(test::read_bytes(folder / "stats.json"));
-  for (const char* key :
-       {"wall_s", "load_s", "total_s", "threads", "simd", "spp", "paths", "tracking_steps", "steps_per_s",
-        "paths_per_s", "majorant_build_ms", "peak_rss_bytes", "nonfinite_samples", "mean_luminance", "seed",
-        "version"}) {
+  for (const char* key : {"wall_s", "load_s", "total_s", "threads", "simd", "spp", "paths", "tracking_steps",
+                          "steps_per_s", "paths_per_s", "majorant_build_ms", "peak_rss_bytes",
+                          "nonfinite_samples", "mean_luminance", "seed", "version"}) {
     EXPECT_TRUE(json.contains(key)) << key;
   }
   EXPECT_EQ(json["wall_s"], 2.0);

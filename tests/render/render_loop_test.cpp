@@ -14,8 +14,8 @@
 #include <thread>
 
 #include "render/checkpoint.h"
-#include "support/temporary_folder.h"
 #include "render/synthetic_trace.h"
+#include "support/temporary_folder.h"
 #include "voxlume/error.h"
 
 namespace voxlume {

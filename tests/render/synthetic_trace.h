@@ -28,8 +28,11 @@ inline void synthetic_trace(const TileRect& tile, int begin, int end, Film& film
     for (int x = tile.x0; x < tile.x1; ++x) {
       for (int s = begin; s < end; ++s) {
         film.add(x, y, synthetic_sample(x, y, s));
-        counters += {.paths = 1, .tracking_steps = static_cast<std::uint64_t>(x + s), .shadow_rays = 2,
-                     .scatterings = 3, .majorant_violations = 0};
+        counters += {.paths = 1,
+                     .tracking_steps = static_cast<std::uint64_t>(x + s),
+                     .shadow_rays = 2,
+                     .scatterings = 3,
+                     .majorant_violations = 0};
       }
     }
   }
