@@ -1,4 +1,7 @@
+#include <filesystem>
+
 #include "cli/commands.h"
+#include "cli/output_file.h"
 #include "cli/scene_flags.h"
 #include "cli/terminal.h"
 #include "scene/open_volume.h"
@@ -15,6 +18,9 @@ struct ConvertRequest {
 int convert(const ConvertRequest& request) {
   SceneDescription scene = scene_of_input(request.input);
   request.flags.apply(scene);
+  const std::filesystem::path output = request.output;
+  if (output.has_filename() && !std::filesystem::is_directory(output)) check_writable(output, "OUTPUT");
+  check_not_input(output, {request.input, scene.volume.path}, "OUTPUT");
   ProgressLine progress;
   progress.show("reading " + request.input);
   Volume volume;

@@ -1,3 +1,4 @@
+#include <fcntl.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -71,6 +72,14 @@ std::string count_message(const std::string& text) {
   return flag + (text.ends_with("missing") ? ": its value is missing" : ": given more than once");
 }
 
+/// A descriptor from 0 to 2 that is closed would be given to the next file opened, and messages written into
+/// it.
+void open_standard_streams() {
+  for (int stream = 0; stream <= 2; ++stream) {
+    if (::fcntl(stream, F_GETFD) == -1) ::open("/dev/null", O_RDWR);
+  }
+}
+
 int run(int argc, char** argv) {
   CLI::App program{"voxlume: photorealistic pictures of scientific and medical volumes", "voxlume"};
   program.set_version_flag("--version", "voxlume " VOXLUME_VERSION);
@@ -106,6 +115,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace voxlume;
+  cli::open_standard_streams();
   try {
     const int code = cli::run(argc, argv);
     if (std::fflush(stdout) != 0) return cli::report(cli::kFailed, "standard output cannot be written");

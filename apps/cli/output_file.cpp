@@ -32,4 +32,14 @@ void check_writable(const fs::path& path, const std::string& flag) {
     refuse("the folder " + quote_text(folder.string()) + " is not writable");
 }
 
+void check_not_input(const fs::path& output, const std::vector<std::string>& inputs,
+                     const std::string& flag) {
+  for (const std::string& input : inputs) {
+    std::error_code ignored;
+    if (!fs::equivalent(output, input, ignored)) continue;
+    throw Error(ErrorCode::kBadParameter, flag,
+                quote_text(output.string()) + " is an input of this command; expected another name");
+  }
+}
+
 }  // namespace voxlume::cli

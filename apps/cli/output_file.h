@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace voxlume::cli {
 
@@ -13,5 +14,10 @@ PictureFormat picture_format(const std::filesystem::path& path, const std::strin
 /// Throws Error kBadParameter, naming `flag`, unless a file could be written at `path`: its folder exists and
 /// is writable, and it is no folder itself.
 void check_writable(const std::filesystem::path& path, const std::string& flag);
+
+/// Throws Error kBadParameter, naming `flag`, when `output` is the same file as one of `inputs` (by whatever
+/// name).
+void check_not_input(const std::filesystem::path& output, const std::vector<std::string>& inputs,
+                     const std::string& flag);
 
 }  // namespace voxlume::cli

@@ -65,10 +65,31 @@ void check_outputs(const RenderRequest& request) {
     return !a.empty() && !b.empty() &&
            fs::absolute(a).lexically_normal() == fs::absolute(b).lexically_normal();
   };
-  if (same(request.stats, request.output) || same(request.save_scene, request.output) ||
-      same(request.stats, request.save_scene)) {
-    throw Error(ErrorCode::kBadParameter, "-o", "two outputs have the same name");
+  const std::string checkpoint = request.output.empty() ? "" : checkpoint_path(request.output).string();
+  for (const auto& [flag, path] :
+       {std::pair{"--stats", request.stats}, {"--save-scene", request.save_scene}}) {
+    if (same(path, request.output) || same(path, checkpoint))
+      throw Error(ErrorCode::kBadParameter, flag, "has the name of the picture or its checkpoint");
   }
+  if (same(request.stats, request.save_scene))
+    throw Error(ErrorCode::kBadParameter, "--stats", "has the name of --save-scene");
+  if (!checkpoint.empty() && !request.resume && fs::exists(checkpoint)) {
+    throw Error(ErrorCode::kBadParameter, "-o",
+                quote_text(checkpoint) +
+                    " of an interrupted render is there; --resume goes on from it, or "
+                    "remove it to start anew");
+  }
+}
+
+/// Refuses outputs that would overwrite what the picture is made from. The scene file alone may be written
+/// back.
+void check_inputs_kept(const RenderRequest& request, SceneDescription scene) {
+  std::vector<std::string> inputs;
+  for_each_path(scene, [&](std::string& path) { inputs.push_back(path); });
+  check_not_input(request.save_scene, inputs, "--save-scene");
+  inputs.push_back(request.input);
+  check_not_input(request.output, inputs, "-o");
+  check_not_input(request.stats, inputs, "--stats");
 }
 
 /// The scene of the input under the flags, not resolved.
@@ -183,7 +204,9 @@ class RenderRun {
 
 int render(const RenderRequest& request) {
   check_outputs(request);
-  RenderRun run(request, requested_scene(request));
+  const SceneDescription scene = requested_scene(request);
+  check_inputs_kept(request, scene);
+  RenderRun run(request, scene);
   return request.output.empty() ? kDone : run.render();
 }
 

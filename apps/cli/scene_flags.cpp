@@ -223,7 +223,9 @@ void SceneFlags::add_volume_flags_to(CLI::App& command) {
 void SceneFlags::add_to(CLI::App& command) {
   for (std::size_t i = 0; i < std::size(kRows); ++i) add(command, i);
   command
-      .add_option("--set", settings_, "Any field of the scene by its address, such as /material/specular=0.2")
+      .add_option("--set", settings_,
+                  "Any field of the scene by its address, such as /material/specular=0.2 or "
+                  "/camera/target_mm=0,0,40; may be repeated")
       ->type_name("ADDRESS=VALUE")
       ->take_all()
       ->allow_extra_args(false);

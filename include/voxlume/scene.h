@@ -117,10 +117,10 @@ enum class Projection { kPerspective, kOrthographic };
 /// The eye. Either by angles around the target (0,0 looks at the patient's face, head up), or by eye_mm.
 struct CameraDescription {
   Projection projection = Projection::kPerspective;
-  double azimuth_deg = 0;            ///< grows toward the patient's left
-  double elevation_deg = 0;          ///< toward the head; [-90, 90]
-  double roll_deg = 0;               ///< clockwise turn of the camera about its axis
-  double zoom = 1;                   ///< > 0; 1 fits the bounding sphere of what is visible
+  double azimuth_deg = 0;    ///< grows toward the patient's left
+  double elevation_deg = 0;  ///< toward the head; [-90, 90]
+  double roll_deg = 0;       ///< clockwise turn of the camera about its axis
+  double zoom = 1;           ///< > 0; 1 fits the bounding sphere of the volume or of what the clip box keeps
   double vertical_fov_deg = 30;      ///< perspective; (0, 170]
   std::optional<Double3> target_mm;  ///< default: centre of what is visible
   std::optional<Double3> eye_mm;     ///< overrides angles and zoom

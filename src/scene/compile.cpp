@@ -73,12 +73,29 @@ CompiledScene::CompiledScene(SceneDescription description, Volume volume, const 
       transfer_(description_.transfer),
       majorants_(make_grid_view(volume_), macrocell_edge(description_.render, make_grid_view(volume_))) {
   check_built(description_.render);
+  check_values(statistics);
   const SceneDescription local = moved_to_origin(description_, origin_mm_);
   compile_medium(local);
   compile_scattering(statistics);
   compile_labels();
   compile_lights_and_camera(local);
   compile_image();
+}
+
+void CompiledScene::check_values(const VolumeStatistics& statistics) {
+  if (!std::isfinite(statistics.lower) || !std::isfinite(statistics.upper))
+    throw Error(ErrorCode::kUnsupported, description_.volume.path,
+                "its values exceed what a 32-bit float holds, in which voxlume computes; rescale them");
+  const float magnitude = std::max(std::abs(statistics.lower), std::abs(statistics.upper));
+  if (voxel_bytes(volume_.type) > 2 && statistics.upper > statistics.lower &&
+      statistics.upper - statistics.lower < 1e-5f * magnitude)
+    warnings_.push_back(
+        "the values differ by little more than the precision of a 32-bit float; subtract their mean");
+  if (statistics.nonfinite_voxels > 0)
+    warnings_.push_back(std::to_string(statistics.nonfinite_voxels) +
+                        " voxels are not finite and stay transparent");
+  if (!(transfer_.max_mu_t(statistics.lower, statistics.upper) > 0))
+    warnings_.push_back("nothing is visible: the transfer function is 0 for every value of the volume");
 }
 
 void CompiledScene::compile_medium(const SceneDescription& local) {

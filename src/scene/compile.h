@@ -34,6 +34,7 @@ class CompiledScene {
   double majorant_build_ms() const { return majorant_build_ms_; }
 
  private:
+  void check_values(const VolumeStatistics& statistics);
   void compile_medium(const SceneDescription& local);
   void compile_scattering(const VolumeStatistics& statistics);
   void compile_labels();

@@ -32,7 +32,7 @@ void visit_fields(V&& visit, Struct<ImageDescription>) {
          .absent = "the default picture's, where seconds and noise are absent too"},
         &T::spp);
   visit({.key = "seconds",
-         .doc = "Stop after this time.",
+         .doc = "Stop after this time, once every pixel has a sample.",
          .unit = "s",
          .range = above_to(0, 1e9),
          .absent = "no limit"},

@@ -102,7 +102,9 @@ void visit_fields(V&& visit, Struct<CameraDescription>) {
          .unit = "degrees",
          .range = kAnyAngle},
         &T::roll_deg);
-  visit({.key = "zoom", .doc = "1 fits the bounding sphere of what is visible.", .range = above_to(0, 1e6)},
+  visit({.key = "zoom",
+         .doc = "1 fits the bounding sphere of the volume, or of the part that the clip box keeps.",
+         .range = above_to(0, 1e6)},
         &T::zoom);
   visit({.key = "vertical_fov_deg",
          .doc = "perspective: vertical field of view.",

@@ -1,5 +1,7 @@
 #include "scene/open_volume.h"
 
+#include <sstream>
+
 #include "base/vec.h"
 #include "grid/phantom.h"
 #include "scene/scene_file.h"
@@ -20,6 +22,12 @@ void check_orthonormal(const std::array<double, 9>& direction) {
       }
     }
   }
+}
+
+std::string number_text(double x) {
+  std::ostringstream text;
+  text << x;
+  return text.str();
 }
 
 Volume read(const VolumeDescription& description) {
@@ -44,6 +52,13 @@ Volume open_volume(const VolumeDescription& description) {
   Volume volume = read(description);
   if (description.origin_mm) volume.origin_mm = *description.origin_mm;
   if (description.direction) volume.direction = *description.direction;
+  for (const double spacing : volume.spacing_mm) {
+    if (spacing < 1e-6 || spacing > 1e6)
+      throw Error(
+          ErrorCode::kBadParameter, description.path,
+          "a voxel spacing of " + number_text(spacing) +
+              " mm; expected 1e-6 to 1e6: give --spacing in millimetres (or a larger unit of your own)");
+  }
   return volume;
 }
 

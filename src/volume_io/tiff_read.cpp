@@ -56,6 +56,10 @@ class TiffReader : public VolumeReader {
     volume.size = {page_.width, page_.height, slices};
     volume.type = page_.type;
     volume.spacing_mm = info.spacing_mm;
+    volume.warnings.push_back(
+        "TIFF carries no orientation: columns are taken to run to the patient's left, rows to posterior, "
+        "pages to the "
+        "head");
     if (!info.warning.empty()) volume.warnings.push_back(info.warning);
     return header;
   }

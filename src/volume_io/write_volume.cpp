@@ -11,6 +11,7 @@
 #include "volume_io/geometry_check.h"
 #include "volume_io/isolated_read.h"
 #include "volume_io/library_message.h"
+#include "volume_io/reorient.h"
 #include "volume_io/volume_writers.h"
 #include "voxlume/volume_io.h"
 
@@ -148,7 +149,8 @@ void write_checked(const Volume& volume, const std::filesystem::path& path) {
          fmt::format("cannot write \"{}\"; expected one of {}, or a folder (ending in /) for a DICOM series",
                      lower_extension(path), known_extensions()));
   }
-  write_file(checked, path, *format);
+  const bool carries_orientation = *format != FileFormat::kTiff && *format != FileFormat::kVtk;
+  write_file(carries_orientation ? checked : along_lps_axes(path, checked), path, *format);
 }
 
 }  // namespace

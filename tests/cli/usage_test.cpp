@@ -165,6 +165,7 @@ TEST_F(CliRefuses, WhatIsNotBuiltYetByName) {
 }
 
 TEST_F(CliRefuses, Outputs) {
+  write("halfway.png.checkpoint", "of an interrupted render");
   std::filesystem::create_directory(folder_ / "sub.png");
   expect_refused({
       {{"render", "none.nrrd", "-o", "o.jpg"}, "-o: found \"o.jpg\", expected a name ending in .png or .exr"},
@@ -173,7 +174,14 @@ TEST_F(CliRefuses, Outputs) {
       {{"render", "none.nrrd", "-o", "sub.png"}, "it is a folder"},
       flags({"--stats", "no/s.json"}, "--stats: cannot write \"no/s.json\""),
       flags({"--save-scene", "no/s.json"}, "--save-scene: cannot write"),
-      flags({"--stats", "./o.png"}, "two outputs have the same name"),
+      flags({"--stats", "./o.png"}, "has the name of the picture"),
+      flags({"--save-scene", "o.png.checkpoint"}, "has the name of the picture or its checkpoint"),
+      flags({"--stats", "s.json", "--save-scene", "s.json"}, "has the name of --save-scene"),
+      flags({"--stats", "ball.nrrd"}, "is an input of this command"),
+      flags({"--save-scene", "./ball.nrrd"}, "is an input of this command"),
+      {{"render", "ball.nrrd", "-o", "halfway.png"}, "--resume goes on from it"},
+      {{"convert", "ball.nrrd", "ball.nrrd"}, "is an input of this command"},
+      {{"convert", "ball.nrrd", "no/ball.mha"}, "the folder \"no\" does not exist"},
       {{"render", "ball.nrrd", "--save-scene", "s.json", "--resume"}, "--resume: needs -o"},
       {{"convert", "ball.nrrd", "ball.xyz"}, "ball.xyz"},
       {{"compare", "ball.nrrd", "ball.nrrd", "--error-map", "e.exr"},

@@ -102,7 +102,7 @@ class Damage : public testing::Test {
     must_fail(name, damaged, from + " -> " + to);
   }
 
-  TempFolder folder_;
+  TemporaryFolder folder_;
   int tried_ = 0;
 };
 

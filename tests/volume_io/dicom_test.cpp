@@ -21,7 +21,7 @@ std::vector<double> slice_values(const Volume& volume) {
 }
 
 TEST(Dicom, WrittenSeriesReadsBack) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   for (const VoxelType type : {VoxelType::kU8, VoxelType::kU16, VoxelType::kI16}) {
     Volume volume = make_test_volume(type);
     volume.spacing_mm = {0.957, 1.25, 2.5};
@@ -40,7 +40,7 @@ TEST(Dicom, WrittenSeriesReadsBack) {
 }
 
 TEST(Dicom, WriterRefusesWhatDicomLacks) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   expect_error(ErrorCode::kUnsupported, "f32",
                [&] { write_volume(make_test_volume(VoxelType::kF32), (folder / "a").string() + "/"); });
   write_bytes(folder / "other.txt", "x");
@@ -49,7 +49,7 @@ TEST(Dicom, WriterRefusesWhatDicomLacks) {
 }
 
 TEST(Dicom, LeftHandedVolumeKeepsItsPlaces) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   Volume volume = make_test_volume(VoxelType::kI16);
   volume.direction = {1, 0, 0, 0, -1, 0, 0, 0, 1};
   write_volume(volume, (folder / "a").string() + "/");
@@ -60,7 +60,7 @@ TEST(Dicom, LeftHandedVolumeKeepsItsPlaces) {
 }
 
 TEST(Dicom, OrderedByPositionNotByNameOrNumber) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const DicomBuilder dicom;
   const double depths[] = {9, 0, 3, 12, 6};  // in the order of the names
   for (int i = 0; i < 5; ++i) {
@@ -78,7 +78,7 @@ TEST(Dicom, OrderedByPositionNotByNameOrNumber) {
 }
 
 TEST(Dicom, RescaleIsAppliedAndChoosesTheType) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   DicomBuilder dicom;
   const auto read_with = [&](const char* slope, const char* intercept, int value) {
     dicom.slope = slope;
@@ -99,7 +99,7 @@ TEST(Dicom, RescaleIsAppliedAndChoosesTheType) {
 }
 
 TEST(Dicom, MissingSlicesAreFilledWithAWarning) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const DicomBuilder dicom;
   for (const int i : {0, 1, 2, 5, 6, 7}) {
     write_bytes(folder / fmt::format("{}.dcm", i), dicom.slice(i, {0, 0, 2.0 * i}, 1024 + 10 * i));
@@ -111,7 +111,7 @@ TEST(Dicom, MissingSlicesAreFilledWithAWarning) {
 }
 
 TEST(Dicom, UnevenSpacingWarns) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const DicomBuilder dicom;
   const double depths[] = {0, 2, 4, 6, 9.1, 11.1};
   for (int i = 0; i < 6; ++i)
@@ -122,7 +122,7 @@ TEST(Dicom, UnevenSpacingWarns) {
 }
 
 TEST(Dicom, RepeatedPositionsWarn) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const DicomBuilder dicom;
   for (int i = 0; i < 8; ++i) {
     write_bytes(folder / fmt::format("{}.dcm", i), dicom.slice(i, {0, 0, 2.0 * (i % 4)}, 1024 + i));
@@ -133,7 +133,7 @@ TEST(Dicom, RepeatedPositionsWarn) {
 }
 
 TEST(Dicom, GantryTiltWarns) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   DicomBuilder dicom;
   const double angle = 15 * 3.14159265358979 / 180;
   dicom.orientation = {1, 0, 0, 0, std::cos(angle), -std::sin(angle)};
@@ -145,7 +145,7 @@ TEST(Dicom, GantryTiltWarns) {
 }
 
 TEST(Dicom, TiltTagWithoutShearWarns) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   DicomBuilder dicom;
   dicom.tilt = "-12.5";
   for (int i = 0; i < 3; ++i)
@@ -154,7 +154,7 @@ TEST(Dicom, TiltTagWithoutShearWarns) {
 }
 
 TEST(Dicom, LargestOfTwoSeriesIsReadAndTheOtherNamed) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   DicomBuilder small;
   small.series = "1.2.3.5";
   small.series_number = 7;
@@ -173,7 +173,7 @@ TEST(Dicom, LargestOfTwoSeriesIsReadAndTheOtherNamed) {
 }
 
 TEST(Dicom, ObliqueSeriesIsPlacedByItsTags) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   DicomBuilder dicom;
   const auto r = rotation({0, 0.6, 0.8}, 0.9);
   dicom.orientation = {r[0], r[3], r[6], r[1], r[4], r[7]};
@@ -191,7 +191,7 @@ TEST(Dicom, ObliqueSeriesIsPlacedByItsTags) {
 }
 
 TEST(Dicom, NothingOfThePatientLeavesTheReader) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   DicomBuilder dicom;
   dicom.tilt = "3";
   dicom.modality = "SecretModality";
@@ -213,7 +213,7 @@ TEST(Dicom, NothingOfThePatientLeavesTheReader) {
 }
 
 TEST(Dicom, EnhancedMultiFrameIsOrderedByFramePositions) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   DicomBuilder dicom;
   dicom.frames = 3;
   dicom.with_position = false;
@@ -240,7 +240,7 @@ TEST(Dicom, EnhancedMultiFrameIsOrderedByFramePositions) {
 }
 
 TEST(Dicom, MultiFrameWithoutPositionsIsRefused) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   DicomBuilder dicom;
   dicom.frames = 3;
   write_bytes(folder / "a.dcm", dicom.file(1, {}, std::string(144, '\1')));
@@ -249,7 +249,7 @@ TEST(Dicom, MultiFrameWithoutPositionsIsRefused) {
 }
 
 TEST(Dicom, ColourIsRefused) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   DicomBuilder dicom;
   dicom.samples = 3;
   dicom.bits = dicom.bits_stored = 8;
@@ -258,7 +258,7 @@ TEST(Dicom, ColourIsRefused) {
 }
 
 TEST(Dicom, OneSliceOfASeriesSaysSo) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   write_bytes(folder / "a.dcm", DicomBuilder().slice(1, {0, 0, 0}, 1500));
   const Volume volume = read_volume(folder / "a.dcm");
   EXPECT_EQ(volume.size[2], 1);
@@ -267,7 +267,7 @@ TEST(Dicom, OneSliceOfASeriesSaysSo) {
 }
 
 TEST(Dicom, CutShortPixelsAreRefused) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const DicomBuilder dicom;
   for (int i = 0; i < 4; ++i) {
     const std::string bytes = dicom.slice(i, {0, 0, 2.0 * i}, 1024);

@@ -19,7 +19,7 @@ std::size_t open_files() {
 }
 
 TEST(Isolation, MemoryLimitIsCheckedBeforeAnythingIsAllocated) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   write_volume(make_test_volume(VoxelType::kI16, {10, 10, 10}), folder / "a.nrrd");
   ReadOptions options;
   options.memory_limit_bytes = 1999;
@@ -31,7 +31,7 @@ TEST(Isolation, MemoryLimitIsCheckedBeforeAnythingIsAllocated) {
 }
 
 TEST(Isolation, MoreThanTheMachineHasIsRefused) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   // A sparse data file holds what the header promises: only memory stands in the way.
   write_bytes(folder / "a.mhd",
               "ObjectType = Image\nNDims = 3\nDimSize = 65536 8192 8192\nElementType = "
@@ -42,7 +42,7 @@ TEST(Isolation, MoreThanTheMachineHasIsRefused) {
 }
 
 TEST(Isolation, LeavesNoDescriptorNoChildNoOutput) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   write_volume(make_test_volume(VoxelType::kI16), folder / "a.nrrd");
   write_bytes(folder / "bad.nrrd", "NRRD0004\ntype: nothing\n");
   write_bytes(folder / "bad.h5", "\x89HDF\r\n\x1a\n and then nothing");
@@ -62,7 +62,7 @@ TEST(Isolation, LeavesNoDescriptorNoChildNoOutput) {
 }
 
 TEST(Isolation, VoxelsOutliveTheFileAndCopiesOfTheVolume) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const Volume original = make_test_volume(VoxelType::kI16);
   write_volume(original, folder / "a.nii.gz");
   Volume copy;
@@ -75,7 +75,7 @@ TEST(Isolation, VoxelsOutliveTheFileAndCopiesOfTheVolume) {
 }
 
 TEST(Isolation, ManyThreadsReadAndWriteAtOnce) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const Volume original = make_test_volume(VoxelType::kI16, {20, 20, 20});
   const char* extensions[] = {".nrrd", ".mha", ".h5", ".tif"};
   std::atomic<int> good{0};
@@ -95,7 +95,7 @@ TEST(Isolation, ManyThreadsReadAndWriteAtOnce) {
 }
 
 TEST(Isolation, InProcessReadingGivesTheSame) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const Volume original = make_test_volume(VoxelType::kU16);
   write_volume(original, folder / "a.nrrd");
   expect_same_voxels(original, read_in_process(folder / "a.nrrd", {}));

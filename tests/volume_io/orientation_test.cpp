@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -63,7 +64,7 @@ void expect_same_head(const Volume& a, const Volume& b) {
 }
 
 TEST(Orientation, ObliqueAndAxialHeadsAgreeAtEveryPoint) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const Volume axial = head_volume({1, 0, 0, 0, 1, 0, 0, 0, 1}, {2.8, 2.8, 2.8});
   const Volume oblique = head_volume(
       rotation({1 / std::sqrt(3.0), 1 / std::sqrt(3.0), -1 / std::sqrt(3.0)}, 0.6), {2.7, 2.8, 2.9});
@@ -84,7 +85,7 @@ TEST(Orientation, ObliqueAndAxialHeadsAgreeAtEveryPoint) {
 std::string voxels_2x2x2() { return bytes_of<std::int16_t>({0, 1, 2, 3, 4, 5, 6, 7}); }
 
 Volume read_nifti(const NiftiBuilder& builder) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   write_bytes(folder / "a.nii", builder.header() + voxels_2x2x2());
   return read_volume(folder / "a.nii");
 }
@@ -144,7 +145,7 @@ TEST(Orientation, NiftiUnitsBecomeMillimetres) {
 }
 
 Volume read_nrrd(const std::string& space) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   write_bytes(folder / "a.nrrd",
               "NRRD0004\ntype: short\ndimension: 3\nsizes: 2 2 2\nendian: little\nencoding: raw\n" + space +
                   "\n" + voxels_2x2x2());
@@ -198,13 +199,47 @@ TEST(Orientation, SlightlySkewAxesAreStraightenedWithAWarning) {
 }
 
 TEST(Orientation, SpacingCanBeOverridden) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   write_volume(make_test_volume(VoxelType::kU8), folder / "a.nrrd");
   ReadOptions options;
   options.spacing_mm = {0.1, 0.2, 0.3};
   EXPECT_EQ(read_volume(folder / "a.nrrd", options).spacing_mm, (Vec{0.1, 0.2, 0.3}));
   options.spacing_mm = {0.1, 0, 0.3};
   expect_error(ErrorCode::kBadParameter, "spacing", [&] { read_volume(folder / "a.nrrd", options); });
+}
+
+/// Formats without orientation get the voxels reordered: what is at an LPS place stays there, up to TIFF's
+/// lost origin.
+TEST(Orientation, FormatsWithoutOrientationAreWrittenAlongLps) {
+  const TemporaryFolder folder;
+  Volume volume;
+  volume.size = {2, 3, 4};
+  volume.type = VoxelType::kU16;
+  volume.spacing_mm = {1, 2, 3};
+  volume.origin_mm = {10, 20, 30};
+  // i runs to the head, j to the right, k to posterior.
+  volume.direction = {0, -1, 0, 0, 0, 1, 1, 0, 0};
+  auto voxels = std::make_shared<std::vector<std::uint16_t>>(24);
+  for (std::size_t n = 0; n < 24; ++n) (*voxels)[n] = static_cast<std::uint16_t>(100 + n);
+  volume.voxels = std::shared_ptr<const void>(voxels, voxels->data());
+  for (const char* name : {"a.vtk", "a.tif"}) {
+    write_volume(volume, folder / name);
+    const Volume back = read_volume(folder / name);
+    EXPECT_EQ(back.size, (std::array<std::int64_t, 3>{3, 4, 2})) << name;
+    EXPECT_NEAR(back.spacing_mm[0], 2, 1e-6) << name;
+    EXPECT_NEAR(back.spacing_mm[1], 3, 1e-6) << name;
+    EXPECT_NEAR(back.spacing_mm[2], 1, 1e-6) << name;
+    const auto* read = static_cast<const std::uint16_t*>(back.voxels.get());
+    for (std::size_t k = 0; k < 4; ++k)
+      for (std::size_t j = 0; j < 3; ++j)
+        for (std::size_t i = 0; i < 2; ++i)
+          EXPECT_EQ(read[(2 - j) + 3 * k + 12 * i], (*voxels)[i + 2 * j + 6 * k]) << name;
+    if (std::string_view(name) == "a.vtk") {
+      EXPECT_EQ(back.origin_mm, (std::array<double, 3>{6, 20, 30}));
+    } else {
+      EXPECT_THAT(back.warnings, testing::Contains(testing::HasSubstr("no orientation")));
+    }
+  }
 }
 
 }  // namespace

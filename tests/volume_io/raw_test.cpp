@@ -54,7 +54,7 @@ Volume read_raw_file(const fs::path& path, const char* spec) {
 }
 
 TEST(Raw, ReadsLittleAndBigEndianWithOffset) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   write_bytes(folder / "a.raw", bytes_of<std::int16_t>({-1, 0x1234, 258, 7}));
   const Volume little = read_raw_file(folder / "a.raw", "3x1x1,i16,1,2,3,little,2");
   EXPECT_EQ(value_at(little, 0), 0x1234);
@@ -68,7 +68,7 @@ TEST(Raw, ReadsLittleAndBigEndianWithOffset) {
 }
 
 TEST(Raw, UnalignedOffsetIsCopied) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   write_bytes(folder / "a.raw", "x" + bytes_of<double>({1.5, -2.5}));
   const Volume volume = read_raw_file(folder / "a.raw", "2x1x1,f64,1,1,1,1");
   EXPECT_EQ(reinterpret_cast<std::uintptr_t>(volume.voxels.get()) % 8, 0u);
@@ -76,7 +76,7 @@ TEST(Raw, UnalignedOffsetIsCopied) {
 }
 
 TEST(Raw, VoxelsAreMappedNotCopied) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const std::uint64_t bytes = 1ull << 36;  // a sparse file larger than memory
   write_bytes(folder / "a.raw", "abcd");
   fs::resize_file(folder / "a.raw", bytes);
@@ -86,7 +86,7 @@ TEST(Raw, VoxelsAreMappedNotCopied) {
 }
 
 TEST(Raw, SizesThatDisagreeAreNamed) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   write_bytes(folder / "a.raw", std::string(100, 'x'));
   expect_error(ErrorCode::kBadFormat, "expected 250 bytes (5x5x5 i16 voxels after offset 0), file has 100",
                [&] { read_raw_file(folder / "a.raw", "5x5x5,i16,1,1,1"); });
@@ -102,7 +102,7 @@ TEST(Raw, SizesThatDisagreeAreNamed) {
 }
 
 TEST(Raw, MemoryLimitCounts) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   write_bytes(folder / "a.raw", std::string(1000, 'x'));
   ReadOptions options;
   options.raw = parse_raw_spec("10x10x10,u8,1,1,1");

@@ -25,7 +25,7 @@ class Refusal : public testing::Test {
     SCOPED_TRACE(name);
     expect_error(ErrorCode::kUnsupported, text, [&] { read(name, bytes); });
   }
-  TempFolder folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(Refusal, FourDimensions) {

@@ -29,13 +29,15 @@ TEST_P(RoundTrip, KeepsVoxelsAndGeometry) {
   volume.spacing_mm = {0.957, 1.25, 2.5};
   if (format.has_origin) volume.origin_mm = {-123.456, 78.9, -1031.25};
   if (format.has_direction) volume.direction = rotation({0.6, 0.0, 0.8}, 0.7);
-  const TempFolder folder;
+  const TemporaryFolder folder;
   write_volume(volume, folder / format.name);
   const Volume back = read_volume(folder / format.name);
   expect_same_voxels(volume, back);
   expect_same_geometry(volume, back);
   EXPECT_FALSE(back.format.empty());
-  for (const std::string& warning : back.warnings) ADD_FAILURE() << warning;
+  const bool tiff = std::string_view(format.name).ends_with(".tif");
+  EXPECT_EQ(back.warnings.size(), tiff ? 1u : 0u)
+      << "TIFF alone has something to say: it carries no orientation";
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, RoundTrip,
@@ -47,14 +49,14 @@ INSTANTIATE_TEST_SUITE_P(Formats, RoundTrip,
                          });
 
 TEST(RoundTrip, ExtensionMayBeUpperCase) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const Volume volume = make_test_volume(VoxelType::kI16);
   write_volume(volume, folder / "A.NRRD");
   expect_same_voxels(volume, read_volume(folder / "A.NRRD"));
 }
 
 TEST(RoundTrip, ContentDecidesWhenTheNameSaysNothing) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const Volume volume = make_test_volume(VoxelType::kI16);
   for (const char* name : {"a.nrrd", "a.mha", "a.nii", "a.tif", "a.vtk", "a.h5"}) {
     write_volume(volume, folder / name);
@@ -67,7 +69,7 @@ TEST(RoundTrip, LeftHandedAxesSurvive) {
   Volume volume = make_test_volume(VoxelType::kI16);
   volume.direction = {1, 0, 0, 0, -1, 0, 0, 0, 1};
   volume.origin_mm = {-10, 20, -30};
-  const TempFolder folder;
+  const TemporaryFolder folder;
   for (const char* name : {"a.nrrd", "a.mha", "a.nii", "a.nii.gz", "a.h5"}) {
     write_volume(volume, folder / name);
     const Volume back = read_volume(folder / name);
@@ -79,7 +81,7 @@ TEST(RoundTrip, LeftHandedAxesSurvive) {
 TEST(RoundTrip, ModalityIsKeptWhereTheFormatHasAPlace) {
   Volume volume = make_test_volume(VoxelType::kI16);
   volume.modality = "CT";
-  const TempFolder folder;
+  const TemporaryFolder folder;
   for (const char* name : {"a.nrrd", "a.nhdr"}) {
     write_volume(volume, folder / name);
     EXPECT_EQ(read_volume(folder / name).modality, "CT") << name;
@@ -92,7 +94,7 @@ TEST(RoundTrip, ModalityIsKeptWhereTheFormatHasAPlace) {
 }
 
 TEST(RoundTrip, WritingReplacesAndLeavesNothingBeside) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const Volume first = make_test_volume(VoxelType::kI16);
   const Volume second = make_test_volume(VoxelType::kF32, {3, 4, 5});
   for (const char* name : {"a.nrrd", "b.nhdr", "c.mhd", "d.nii"}) {
@@ -107,14 +109,14 @@ TEST(RoundTrip, WritingReplacesAndLeavesNothingBeside) {
 }
 
 TEST(RoundTrip, DetachedHeadersDoNotShareData) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const Volume volume = make_test_volume(VoxelType::kI16);
   write_volume(volume, folder / "a.nhdr");
   expect_error(ErrorCode::kBadParameter, "a.nhdr", [&] { write_volume(volume, folder / "a.mhd"); });
 }
 
 TEST(RoundTrip, OneSliceAndOneVoxel) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   for (const std::array<std::int64_t, 3> size :
        {std::array<std::int64_t, 3>{9, 8, 1}, {1, 1, 1}, {1, 6, 3}}) {
     const Volume volume = make_test_volume(VoxelType::kU16, size);
@@ -126,14 +128,15 @@ TEST(RoundTrip, OneSliceAndOneVoxel) {
 }
 
 TEST(WriteVolume, RefusesWhatItCannotWrite) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   Volume volume = make_test_volume(VoxelType::kI16);
   expect_error(ErrorCode::kUnsupported, ".nii.gz", [&] { write_volume(volume, folder / "a.xyz"); });
   expect_error(ErrorCode::kUnsupported, ".nrrd", [&] { write_volume(volume, folder / "noextension"); });
   expect_error(ErrorCode::kInternal, "cannot write",
                [&] { write_volume(volume, folder / "no/such/a.nrrd"); });
-  volume.direction = {1, 0, 0, 0, -1, 0, 0, 0, 1};
+  volume.direction = {0.8, -0.6, 0, 0.6, 0.8, 0, 0, 0, 1};
   expect_error(ErrorCode::kUnsupported, "orientation", [&] { write_volume(volume, folder / "a.vtk"); });
+  expect_error(ErrorCode::kUnsupported, "orientation", [&] { write_volume(volume, folder / "a.tif"); });
   volume.voxels.reset();
   expect_error(ErrorCode::kBadParameter, "without voxels", [&] { write_volume(volume, folder / "a.nrrd"); });
 }

@@ -38,7 +38,7 @@ std::string tiff_page(int width, int height, const std::string& pixels, int bits
 }
 
 TEST(Tiff, FolderOfSlicesIsStackedInNaturalOrder) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   for (const int i : {1, 2, 9, 10, 11, 100}) {
     write_bytes(folder / fmt::format("slice{}.tif", i),
                 tiff_page(2, 1, std::string(2, static_cast<char>(i)), 8));
@@ -52,7 +52,7 @@ TEST(Tiff, FolderOfSlicesIsStackedInNaturalOrder) {
 }
 
 TEST(Tiff, SlicesMustAgree) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   write_bytes(folder / "a.tif", tiff_page(2, 1, "ab", 8));
   write_bytes(folder / "b.tif", tiff_page(1, 2, "ab", 8));
   expect_error(ErrorCode::kBadFormat, "slice 1 is 1x2 u8; expected 2x1 u8",
@@ -60,7 +60,7 @@ TEST(Tiff, SlicesMustAgree) {
 }
 
 TEST(Tiff, ColourAndOddDepthsAreRefused) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   write_bytes(folder / "a.tif", tiff_page(2, 1, "abcdef", 8, 3));
   expect_error(ErrorCode::kUnsupported, "3 channels per pixel (RGB)", [&] { read_volume(folder / "a.tif"); });
   write_bytes(folder / "b.tif", tiff_page(8, 1, "a", 1));
@@ -68,7 +68,7 @@ TEST(Tiff, ColourAndOddDepthsAreRefused) {
 }
 
 TEST(Tiff, ImageJStacksAndOmeSizesAreUnderstood) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   const std::string pixels = bytes_of<std::uint16_t>({1, 2, 3, 4, 5, 6});
   write_bytes(folder / "a.tif",
               tiff_page(2, 1, pixels, 16, 1, std::string("ImageJ=1.53t\nimages=3\nslices=3\n") + '\0'));
@@ -105,7 +105,7 @@ TEST(Tiff, NaturalOrder) {
 }
 
 /// OpenVDB is optional: what it reads is tested where the library has it.
-bool has_vdb(const TempFolder& folder) {
+bool has_vdb(const TemporaryFolder& folder) {
   try {
     write_volume(make_test_volume(VoxelType::kF32), folder / "probe.vdb");
     return true;
@@ -116,7 +116,7 @@ bool has_vdb(const TempFolder& folder) {
 }
 
 TEST(Vdb, RoundTripKeepsVoxelsAndGeometry) {
-  const TempFolder folder;
+  const TemporaryFolder folder;
   if (!has_vdb(folder)) GTEST_SKIP() << "built without OpenVDB";
   for (const VoxelType type : {VoxelType::kF32, VoxelType::kI16, VoxelType::kU8}) {
     Volume volume = make_test_volume(type, {19, 9, 10});
