@@ -13,6 +13,7 @@ struct FurnaceCase {
   double gradient_factor;
   double specular;
   const char* light_sampling;
+  double roughness = 0.4;
 };
 
 std::string case_name(const testing::TestParamInfo<FurnaceCase>& info) {
@@ -33,6 +34,7 @@ Estimate render_furnace(const FurnaceCase& c, int spp) {
   scene.material.gradient_factor = c.gradient_factor;
   scene.material.anisotropy = c.g;
   scene.material.specular = c.specular;
+  scene.material.roughness = c.roughness;
   scene.render.max_scatter = 0;
   scene.render.light_sampling = c.light_sampling;
   return estimate(scene, soft_ball(), spp);
@@ -73,10 +75,14 @@ INSTANTIATE_TEST_SUITE_P(LambertAndPhase, Furnace,
 
 TEST(Furnace, SpecularLobeNeverGainsEnergy) {
   for (const double mu_t : {0.2, 2.0}) {
-    const Estimate image = render_furnace({mu_t, 0, Shading::kBrdf, 1, 1, "mis"}, 800);
-    for (const Moments& pixel : image.pixels)
-      EXPECT_LT(pixel.mean(), 1 + 4.5 * pixel.standard_error() + 1e-4);
-    EXPECT_GT(image.total().mean(), 0.5);
+    for (const Shading shading : {Shading::kBrdf, Shading::kCoexistence, Shading::kExposureRender}) {
+      for (const double roughness : {0.05, 0.4, 1.0}) {
+        const Estimate image = render_furnace({mu_t, 0, shading, 1, 1, "mis", roughness}, 300);
+        for (const Moments& pixel : image.pixels)
+          EXPECT_LT(pixel.mean(), 1 + 4.5 * pixel.standard_error() + 1e-4);
+        EXPECT_GT(image.total().mean(), 0.5);
+      }
+    }
   }
 }
 
