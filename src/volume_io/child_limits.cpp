@@ -94,7 +94,9 @@ void raise_memory_limit(std::uint64_t, std::uint64_t working_bytes) {
 
 /// A size that only a damaged file asks for is no defect of the reader.
 void tell_absurd_size(const char* report) {
-  if (std::strstr(report, "allocation-size-too-big")) _exit(kChildOutOfMemory);
+  for (const char* kind : {"allocation-size-too-big", "out-of-memory", "allocator is out of memory"}) {
+    if (std::strstr(report, kind)) _exit(kChildOutOfMemory);
+  }
 }
 
 void keep_sanitizer_reports() {
