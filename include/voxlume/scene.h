@@ -163,8 +163,9 @@ struct RenderDescription {
   std::uint64_t seed = 0;
   std::uint32_t frame = 0;
   int max_scatter = 2;               ///< 0 is without limit, ended by Russian roulette
-  std::string accelerator = "auto";  ///< auto none macrocell
-  int macrocell_voxels = 0;          ///< edge of a macrocell; 0 chooses
+  std::string accelerator = "auto";  ///< auto none macrocell hierarchy
+  int macrocell_voxels = 0;          ///< edge of the finest cells; 0 chooses
+  double lookup_cost = 2.5;          ///< of the hierarchy: a data look-up in units of a cell crossing
   std::string simd = "auto";         ///< auto scalar
   std::string denoise = "none";
   /// Which techniques gather light at a scattering: "mis" (both), "light" (next-event estimation alone) or

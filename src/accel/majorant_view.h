@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "accel/segment.h"
 #include "base/box.h"
 
 namespace voxlume {
@@ -13,13 +14,6 @@ struct MajorantView {
   std::int32_t cells[3] = {0, 0, 0};
   float cell_voxels = 1;
   Box3f domain;  ///< index space
-};
-
-/// A run of a ray through one cell.
-struct MajorantSegment {
-  float t_near, t_far;  ///< mm
-  float mu_maj;         ///< >= mu_t of every point of `cell`
-  Box3f cell;           ///< index space; look-ups clamp to it, so that rounding never leaves the cell's range
 };
 
 /// Walks the cells that a ray crosses (3-D DDA). Crossing distances are computed from the planes themselves,

@@ -46,6 +46,7 @@ MatterPoint matter_at(const SceneView& scene, Vec3f p_index, float value) noexce
 
   MatterPoint point;
   point.emission = optics.emission;
+  point.p_world = p_world;
   ScatterPoint& scatter = point.scatter;
   scatter.normal = Vec3f(0);
   scatter.p_brdf = 0;

@@ -8,6 +8,7 @@ namespace voxlume {
 struct MatterPoint {
   ScatterPoint scatter;  ///< surface share and normal included
   Vec3f emission;        ///< L_e
+  Vec3f p_world;         ///< LPS mm
 };
 
 /// Classifies the data `value` at p_index and finds its surface: the normal is the outward data gradient, to

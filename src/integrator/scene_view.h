@@ -50,6 +50,8 @@ struct SceneView {
   std::uint32_t frame = 0;
   std::int32_t max_scatter = 2;  ///< 0: no limit
   LightSampling light_sampling = LightSampling::kMis;
+  /// Whether a flight after the last scattering can meet anything that emits.
+  bool last_flight_collects = true;
 };
 
 }  // namespace voxlume

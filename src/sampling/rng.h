@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <bit>
 #include <cstdint>
 
 namespace voxlume {
@@ -23,29 +24,38 @@ constexpr std::array<std::uint32_t, 4> philox4x32_7(std::array<std::uint32_t, 4>
 constexpr float unit_float(std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }
 
 /// The random stream of one camera sample: a function of (seed, frame, pixel, sample, dimension) alone, so
-/// that no thread count, tile order or resumption changes a picture. Dimensions are drawn in order.
+/// that no thread count, tile order or resumption changes a picture. Philox gives each sample a state of 128
+/// bits of its own, from which xoshiro128++ (Blackman and Vigna 2021, "Scrambled linear pseudorandom number
+/// generators") draws one dimension after the other in a few operations, which suit vector lanes.
 class Rng {
  public:
   /// `pixel` is the pixel's index in the image (row * width + column).
   constexpr Rng(std::uint64_t seed, std::uint32_t frame, std::uint32_t pixel, std::uint32_t sample)
-      : key_{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)},
-        counter_{0, sample, pixel, frame} {}
+      : state_(philox4x32_7({0, sample, pixel, frame},
+                            {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)})) {
+    // The one state that xoshiro never leaves.
+    if ((state_[0] | state_[1] | state_[2] | state_[3]) == 0) state_[0] = 1;
+  }
+  /// Goes on where another stream stands.
+  constexpr explicit Rng(const std::array<std::uint32_t, 4>& state) : state_(state) {}
 
   /// The next dimension, uniform in [0, 1).
   constexpr float next() {
-    const std::uint32_t lane = dimension_++ & 3u;
-    if (lane == 0) {
-      block_ = philox4x32_7(counter_, key_);
-      ++counter_[0];
-    }
-    return unit_float(block_[lane]);
+    const std::uint32_t bits = std::rotl(state_[0] + state_[3], 7) + state_[0];
+    const std::uint32_t shifted = state_[1] << 9;
+    state_[2] ^= state_[0];
+    state_[3] ^= state_[1];
+    state_[1] ^= state_[2];
+    state_[0] ^= state_[3];
+    state_[2] ^= shifted;
+    state_[3] = std::rotl(state_[3], 11);
+    return unit_float(bits);
   }
 
+  constexpr const std::array<std::uint32_t, 4>& state() const { return state_; }
+
  private:
-  std::array<std::uint32_t, 2> key_;
-  std::array<std::uint32_t, 4> counter_;
-  std::array<std::uint32_t, 4> block_{};
-  std::uint32_t dimension_ = 0;
+  std::array<std::uint32_t, 4> state_;
 };
 
 }  // namespace voxlume

@@ -24,12 +24,21 @@ constexpr double kMaxVoxelDepth = 1e5;
 
 Vec3f to_vec(const Color& color) { return {color.linear[0], color.linear[1], color.linear[2]}; }
 
-int macrocell_edge(const RenderDescription& render, const GridView& grid) {
-  if (render.accelerator == "none") return std::max({grid.size[0], grid.size[1], grid.size[2], 1});
-  if (render.accelerator != "auto" && render.accelerator != "macrocell")
-    throw Error(ErrorCode::kUnsupported, "/render/accelerator",
-                "\"" + render.accelerator + "\" is not built yet; available: auto, none, macrocell");
-  return render.macrocell_voxels > 0 ? render.macrocell_voxels : default_macrocell_voxels(grid);
+AcceleratorChoice accelerator_choice(const RenderDescription& render, const GridView& grid) {
+  AcceleratorChoice choice;
+  choice.cell_voxels = render.macrocell_voxels;
+  choice.costs.lookup = static_cast<float>(render.lookup_cost);
+  if (render.accelerator == "none") {
+    choice.kind = AcceleratorKind::kMacrocell;
+    choice.cell_voxels = std::max({grid.size[0], grid.size[1], grid.size[2], 1});
+  } else if (render.accelerator == "macrocell") {
+    choice.kind = AcceleratorKind::kMacrocell;
+  } else if (render.accelerator != "auto" && render.accelerator != "hierarchy") {
+    throw Error(
+        ErrorCode::kUnsupported, "/render/accelerator",
+        "\"" + render.accelerator + "\" is not built yet; available: auto, none, macrocell, hierarchy");
+  }
+  return choice;
 }
 
 void check_built(const RenderDescription& render) {
@@ -71,7 +80,8 @@ CompiledScene::CompiledScene(SceneDescription description, Volume volume, const 
       volume_(std::move(volume)),
       origin_mm_(visible_sphere(volume_, std::nullopt).center_mm),
       transfer_(description_.transfer),
-      majorants_(make_grid_view(volume_), macrocell_edge(description_.render, make_grid_view(volume_))) {
+      accelerator_(make_grid_view(volume_),
+                   accelerator_choice(description_.render, make_grid_view(volume_))) {
   check_built(description_.render);
   check_values(statistics);
   const SceneDescription local = moved_to_origin(description_, origin_mm_);
@@ -105,10 +115,11 @@ void CompiledScene::compile_medium(const SceneDescription& local) {
                 "its densest matter has an optical depth of " + std::to_string(voxel_depth) +
                     " in one voxel; expected at most 100000");
   const auto start = std::chrono::steady_clock::now();
-  majorants_.update(transfer_);
+  accelerator_.update(transfer_);
   majorant_build_ms_ =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  view_.medium = {make_grid_view(moved_to_origin(volume_, origin_mm_)), transfer_.view(), majorants_.view()};
+  view_.medium = {make_grid_view(moved_to_origin(volume_, origin_mm_)), transfer_.view(),
+                  accelerator_.view()};
   view_.domain_index = view_.medium.grid.index_box();
   view_.clip_world = {Vec3f(-1e30f), Vec3f(1e30f)};
   if (const auto& clip = local.clip) {
@@ -177,6 +188,9 @@ void CompiledScene::compile_image() {
   view_.frame = render.frame;
   view_.max_scatter = render.max_scatter;
   view_.light_sampling = light_sampling(render.light_sampling);
+  view_.last_flight_collects =
+      transfer_.emits() || (view_.light_sampling != LightSampling::kLight &&
+                            (view_.lights.has_environment || view_.lights.rect_count > 0));
 }
 
 }  // namespace voxlume

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "accel/majorant_grid.h"
+#include "accel/accelerator.h"
 #include "grid/volume_statistics.h"
 #include "integrator/scene_view.h"
 #include "light/compile_lights.h"
@@ -48,7 +48,7 @@ class CompiledScene {
   std::optional<LabelTable> label_table_;
   std::vector<std::string> warnings_;
   TransferFunction transfer_;
-  MajorantGrid majorants_;
+  Accelerator accelerator_;
   std::optional<Lights> lights_;
   double majorant_build_ms_ = 0;
   SceneView view_;

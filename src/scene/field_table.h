@@ -9,8 +9,8 @@ namespace voxlume {
 // visitor(FieldInfo, &T::member) for every field, in the order in which files are written. A field that is
 // not here does not exist in scene files.
 
-inline const WordChoices kAcceleratorWords{{"auto", "none", "macrocell"},
-                                           {"octree", "hierarchy", "residency"}};
+inline const WordChoices kAcceleratorWords{{"auto", "none", "macrocell", "hierarchy"},
+                                           {"octree", "residency"}};
 inline const WordChoices kSimdWords{{"auto", "scalar"}, {"sse4", "avx2", "avx512"}};
 inline const WordChoices kDenoiseWords{{"none"}, {"decoupled", "wrls", "svgf"}};
 inline const WordChoices kLightSamplingWords{{"mis", "light", "direction"}, {}};
@@ -77,10 +77,15 @@ void visit_fields(V&& visit, Struct<RenderDescription>) {
   visit({.key = "accelerator", .doc = "Structure of majorants.", .words = &kAcceleratorWords},
         &T::accelerator);
   visit({.key = "macrocell_voxels",
-         .doc = "Edge of a macrocell; 0 chooses.",
+         .doc = "Edge of the finest cells; 0 chooses.",
          .unit = "voxels",
          .range = between(0, 1024)},
         &T::macrocell_voxels);
+  visit({.key = "lookup_cost",
+         .doc = "Of the hierarchy: what a look-up of the data costs, in crossings of a cell. Greater values "
+                "make finer cells; the picture stays the same.",
+         .range = between(0, 1000)},
+        &T::lookup_cost);
   visit({.key = "simd", .doc = "Instruction set.", .words = &kSimdWords}, &T::simd);
   visit({.key = "denoise", .doc = "Denoiser.", .words = &kDenoiseWords}, &T::denoise);
   visit({.key = "light_sampling",

@@ -1,5 +1,5 @@
 #pragma once
-#include "accel/majorant_view.h"
+#include "accel/accelerator_view.h"
 #include "grid/sample.h"
 #include "transfer/transfer_view.h"
 
@@ -9,13 +9,19 @@ namespace voxlume {
 struct Medium {
   GridView grid;
   TransferView transfer;
-  MajorantView majorant;
+  AcceleratorView accelerator;
 };
 
 /// A ray in index space that keeps t in mm.
 struct IndexRay {
   Vec3f origin_index;
   Vec3f direction_index;  ///< index units per mm
+};
+
+/// The part of a ray that is tracked: t from t_near to t_far [mm], inside the volume's domain.
+struct TrackRay {
+  IndexRay ray;
+  float t_near = 0, t_far = 0;
 };
 
 inline IndexRay to_index_ray(const GridView& grid, Vec3f origin_world, Vec3f direction_world) noexcept {

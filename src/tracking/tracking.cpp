@@ -8,30 +8,30 @@ namespace {
 /// Visits the tentative collisions of a ray: a Poisson process of rate mu_maj. `visit(t, p_index, mu_maj)`
 /// returns true to stop.
 template <class Visit>
-void visit_tentative_collisions(const Medium& medium, const IndexRay& ray, float t_near, float t_far,
-                                Rng& rng, Visit&& visit) noexcept {
-  MacrocellWalk walk(medium.majorant, ray.origin_index, ray.direction_index, t_near, t_far);
-  MajorantSegment segment;
+void visit_tentative_collisions(const Medium& medium, const TrackRay& track, Rng& rng,
+                                Visit&& visit) noexcept {
+  const auto& [ray, t_near, t_far] = track;
   float tau = sample_optical_depth(rng.next());
-  while (walk.next(segment)) {
-    if (segment.mu_maj <= 0) continue;
-    const float inverse_majorant = 1.0f / segment.mu_maj;
-    // Distances are summed from where the segment starts: far from the eye, t is coarser than the steps may
-    // be.
-    const float length_mm = segment.t_far - segment.t_near;
-    float entered_mm = 0;
-    for (;;) {
-      const float next_mm = entered_mm + tau * inverse_majorant;
-      if (!(next_mm < length_mm)) break;
-      entered_mm = next_mm;
-      const float t = segment.t_near + entered_mm;
-      const Vec3f p = ray.origin_index + ray.direction_index * t;
-      if (visit(t, min(max(p, segment.cell.lower), segment.cell.upper), segment.mu_maj)) return;
-      tau = sample_optical_depth(rng.next());
+  // From here on distances are counted from where the ray enters: far from the eye, t is coarser.
+  const Vec3f origin = ray.origin_index + ray.direction_index * t_near;
+  with_walk(medium.accelerator, origin, ray.direction_index, t_far - t_near, [&](auto& walk) {
+    MajorantSegment segment;
+    while (walk.next(segment)) {
+      const float length_mm = segment.t_far - segment.t_near;
+      float entered_mm = 0;
+      for (;;) {
+        const float next_mm = entered_mm + tau / segment.mu_maj;
+        if (!(next_mm < length_mm)) break;  // also without extinction, where next_mm is infinite or NaN
+        entered_mm = next_mm;
+        const float t = segment.t_near + entered_mm;
+        const Vec3f p = origin + ray.direction_index * t;
+        if (visit(t_near + t, min(max(p, segment.cell.lower), segment.cell.upper), segment.mu_maj)) return;
+        tau = sample_optical_depth(rng.next());
+      }
+      const float left = tau - (length_mm - entered_mm) * segment.mu_maj;
+      tau = left > 0 ? left : 0;
     }
-    const float left = tau - (length_mm - entered_mm) * segment.mu_maj;
-    tau = left > 0 ? left : 0;
-  }
+  });
 }
 
 void check_majorant(float mu_t, float mu_maj, TrackingCounters& counters) noexcept {
@@ -41,10 +41,10 @@ void check_majorant(float mu_t, float mu_maj, TrackingCounters& counters) noexce
 
 }  // namespace
 
-Collision sample_free_flight(const Medium& medium, const IndexRay& ray, float t_near, float t_far, Rng& rng,
+Collision sample_free_flight(const Medium& medium, const TrackRay& ray, Rng& rng,
                              TrackingCounters& counters) noexcept {
   Collision collision;
-  visit_tentative_collisions(medium, ray, t_near, t_far, rng, [&](float t, Vec3f p_index, float mu_maj) {
+  visit_tentative_collisions(medium, ray, rng, [&](float t, Vec3f p_index, float mu_maj) {
     ++counters.steps;
     const float value = sample_trilinear(medium.grid, p_index);
     const float mu_t = classify_mu_t(medium.transfer, value);
@@ -56,10 +56,10 @@ Collision sample_free_flight(const Medium& medium, const IndexRay& ray, float t_
   return collision;
 }
 
-float estimate_transmittance(const Medium& medium, const IndexRay& ray, float t_near, float t_far, Rng& rng,
+float estimate_transmittance(const Medium& medium, const TrackRay& ray, Rng& rng,
                              TrackingCounters& counters) noexcept {
   float transmittance = 1;
-  visit_tentative_collisions(medium, ray, t_near, t_far, rng, [&](float, Vec3f p_index, float mu_maj) {
+  visit_tentative_collisions(medium, ray, rng, [&](float, Vec3f p_index, float mu_maj) {
     ++counters.steps;
     const float mu_t = extinction_at(medium, p_index);
     check_majorant(mu_t, mu_maj, counters);

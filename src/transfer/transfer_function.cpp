@@ -236,4 +236,10 @@ float TransferFunction::max_mu_t() const {
   return max_mu_t(-std::numeric_limits<float>::max(), std::numeric_limits<float>::max());
 }
 
+bool TransferFunction::emits() const {
+  return std::any_of(pieces_.begin(), pieces_.end(), [](const TransferPiece& piece) {
+    return piece.emission != Vec3f(0) || piece.emission_slope != Vec3f(0);
+  });
+}
+
 }  // namespace voxlume

@@ -22,6 +22,8 @@ class TransferFunction {
   float max_mu_t(float lower, float upper) const;
   /// The supremum over all values.
   float max_mu_t() const;
+  /// Whether any value emits light.
+  bool emits() const;
 
  private:
   std::vector<TransferPiece> pieces_;

@@ -80,7 +80,7 @@ TEST(Analytic, SemiInfiniteIsotropicMedium) {
     scene.lights = {directional({0, -1, 0}, 1)};
     scene.render.max_scatter = 0;
     const Double3 spacing_mm = conservative ? Double3{4000, 1500, 4000} : Double3{100, 30, 100};
-    expect_mean(estimate(scene, block(spacing_mm), conservative ? 2000 : 12000).total(), expected);
+    expect_mean(estimate(scene, block(spacing_mm), conservative ? 6000 : 12000).total(), expected);
   }
 }
 

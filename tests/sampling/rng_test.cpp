@@ -17,6 +17,13 @@ TEST(Rng, PhiloxKnownAnswers) {
             (Block{0x5207ddc2u, 0x45165e59u, 0x4d8ee751u, 0x8c52f662u}));
 }
 
+TEST(Rng, XoshiroKnownAnswers) {
+  // Of the state 1, 2, 3, 4: by hand, 641 = rotl(1 + 4, 7) + 1, and from an independent implementation.
+  Rng rng(std::array<std::uint32_t, 4>{1, 2, 3, 4});
+  for (const std::uint32_t bits : {641u, 1573767u, 3222811527u, 3517856514u})
+    EXPECT_EQ(rng.next(), unit_float(bits));
+}
+
 TEST(Rng, UnitFloatStaysBelowOne) {
   EXPECT_EQ(unit_float(0), 0.0f);
   EXPECT_EQ(unit_float(0xffffffffu), 1.0f - 0x1p-24f);

@@ -41,6 +41,7 @@ inline SceneDescription full_scene() {
   s.render.max_scatter = 100;
   s.render.accelerator = "macrocell";
   s.render.macrocell_voxels = 8;
+  s.render.lookup_cost = 4;
   s.render.simd = "scalar";
   s.render.light_sampling = "light";
   return s;

@@ -24,9 +24,10 @@ class FreeFlight : public testing::TestWithParam<int> {
     TrackingCounters counters;
     for (int n = 0; n < kFlights; ++n) {
       Rng rng(71, 0, 0, static_cast<std::uint32_t>(n));
-      const Collision c =
-          sample_free_flight(tracked.medium, to_index_ray(tracked.medium.grid, {0, 1, 1}, {1, 0, 0}), 0,
-                             static_cast<float>(t_far), rng, counters);
+      const Collision c = sample_free_flight(
+          tracked.medium,
+          {to_index_ray(tracked.medium.grid, {0, 1, 1}, {1, 0, 0}), 0, static_cast<float>(t_far)}, rng,
+          counters);
       const int bin = c.real ? std::min(static_cast<int>(c.t_mm / t_far * kBins), kBins - 1) : kBins;
       observed[static_cast<std::size_t>(bin)] += 1;
       if (!c.real) continue;
@@ -70,7 +71,7 @@ TEST_P(FreeFlight, TwoLayerSlabByKolmogorovSmirnov) {
   TrackingCounters counters;
   for (int n = 0; n < kFlights; ++n) {
     Rng rng(72, 0, 0, static_cast<std::uint32_t>(n));
-    const Collision c = sample_free_flight(tracked.medium, {{0, 1, 1}, {1, 0, 0}}, 0, 16, rng, counters);
+    const Collision c = sample_free_flight(tracked.medium, {{{0, 1, 1}, {1, 0, 0}}, 0, 16}, rng, counters);
     if (c.real) distances.push_back(c.t_mm);
   }
   std::sort(distances.begin(), distances.end());
@@ -97,7 +98,7 @@ TEST(FreeFlights, CarryTheOpticalDepthThroughEmptyCells) {
   TrackingCounters counters;
   for (int n = 0; n < kFlights; ++n) {
     Rng rng(73, 0, 0, static_cast<std::uint32_t>(n));
-    const Collision c = sample_free_flight(tracked.medium, {{0, 1, 1}, {1, 0, 0}}, 0, 16, rng, counters);
+    const Collision c = sample_free_flight(tracked.medium, {{{0, 1, 1}, {1, 0, 0}}, 0, 16}, rng, counters);
     ASSERT_TRUE(!c.real || c.t_mm < 2.002f || c.t_mm > 13.998f);
     const double visible = c.t_mm < 8 ? c.t_mm : c.t_mm - 12.0;
     observed[static_cast<std::size_t>(c.real ? std::clamp(visible * 2, 0.0, 7.0) : 8)] += 1;

@@ -24,8 +24,8 @@ TEST(Tracking, NothingVisibleTakesNoStep) {
     TrackingCounters counters;
     Rng rng(1, 0, 0, 0);
     const IndexRay ray{{-0.5f, 3, 4}, {1, 0.1f, 0.2f}};
-    EXPECT_FALSE(sample_free_flight(tracked.medium, ray, 0, 9, rng, counters).real);
-    EXPECT_EQ(estimate_transmittance(tracked.medium, ray, 0, 9, rng, counters), 1.0f);
+    EXPECT_FALSE(sample_free_flight(tracked.medium, {ray, 0, 9}, rng, counters).real);
+    EXPECT_EQ(estimate_transmittance(tracked.medium, {ray, 0, 9}, rng, counters), 1.0f);
     EXPECT_EQ(counters.steps, 0u);
   }
 }
@@ -36,10 +36,10 @@ TEST(Tracking, EmptyIntervals) {
   for (const auto& [a, b] : {std::pair{1.0f, 1.0f}, std::pair{3.0f, 1.0f}, std::pair{kNaN, 1.0f}}) {
     Rng rng(2, 0, 0, 0);
     const Collision collision =
-        sample_free_flight(tracked.medium, {{0, 1, 1}, {1, 0, 0}}, a, b, rng, counters);
+        sample_free_flight(tracked.medium, {{{0, 1, 1}, {1, 0, 0}}, a, b}, rng, counters);
     EXPECT_FALSE(collision.real);
     EXPECT_EQ(collision.t_mm, kInfinity);
-    EXPECT_EQ(estimate_transmittance(tracked.medium, {{0, 1, 1}, {1, 0, 0}}, a, b, rng, counters), 1.0f);
+    EXPECT_EQ(estimate_transmittance(tracked.medium, {{{0, 1, 1}, {1, 0, 0}}, a, b}, rng, counters), 1.0f);
   }
   EXPECT_EQ(counters.steps, 0u);
 }
@@ -51,10 +51,11 @@ TEST(Tracking, OpaqueMatterStopsAtItsFace) {
   for (std::uint32_t n = 0; n < 1000; ++n) {
     Rng rng(3, 0, 0, n);
     const Collision collision =
-        sample_free_flight(tracked.medium, {{-0.5f, 4, 4}, {1, 0, 0}}, 0, 9, rng, counters);
+        sample_free_flight(tracked.medium, {{{-0.5f, 4, 4}, {1, 0, 0}}, 0, 9}, rng, counters);
     ASSERT_TRUE(collision.real);
     ASSERT_LT(collision.t_mm, 1e-4f);
-    ASSERT_EQ(estimate_transmittance(tracked.medium, {{-0.5f, 4, 4}, {1, 0, 0}}, 0, 9, rng, counters), 0.0f);
+    ASSERT_EQ(estimate_transmittance(tracked.medium, {{{-0.5f, 4, 4}, {1, 0, 0}}, 0, 9}, rng, counters),
+              0.0f);
   }
 }
 
@@ -68,8 +69,8 @@ TEST(Tracking, NaNVoxelsAreTransparent) {
   for (std::uint32_t n = 0; n < 100000; ++n) {
     Rng rng(4, 0, 0, n);
     const IndexRay ray{{-0.5f, 1, 1}, {1, 0, 0}};
-    ratio.add(estimate_transmittance(tracked.medium, ray, 0, 10, rng, counters));
-    const Collision collision = sample_free_flight(tracked.medium, ray, 0, 10, rng, counters);
+    ratio.add(estimate_transmittance(tracked.medium, {ray, 0, 10}, rng, counters));
+    const Collision collision = sample_free_flight(tracked.medium, {ray, 0, 10}, rng, counters);
     ASSERT_FALSE(std::isnan(collision.value));
     ASSERT_TRUE(!collision.real || collision.p_index.x <= 2 || collision.p_index.x >= 6);
     survived.add(collision.real ? 0 : 1);
@@ -100,10 +101,10 @@ TEST(Tracking, AnyRayAnyFieldStaysInRange) {
             to_index_ray(tracked.medium.grid, inside - direction * (n % 2 ? 300.0f : 0.0f), direction);
         const Interval<float> run = tracked.inside(ray);
         if (run.empty()) continue;
-        const float t = estimate_transmittance(tracked.medium, ray, run.t_near, run.t_far, rng, counters);
+        const float t = estimate_transmittance(tracked.medium, {ray, run.t_near, run.t_far}, rng, counters);
         ASSERT_TRUE(t >= 0 && t <= 1);
         const Collision collision =
-            sample_free_flight(tracked.medium, ray, run.t_near, run.t_far, rng, counters);
+            sample_free_flight(tracked.medium, {ray, run.t_near, run.t_far}, rng, counters);
         if (!collision.real) continue;
         ASSERT_TRUE(collision.t_mm >= run.t_near && collision.t_mm <= run.t_far);
         ASSERT_TRUE(tracked.medium.grid.index_box().contains(collision.p_index));
@@ -123,7 +124,7 @@ TEST(Tracking, StepsAreTheTentativeCollisions) {
   for (std::uint32_t n = 0; n < 100000; ++n) {
     TrackingCounters counters;
     Rng rng(6, 0, 0, n);
-    estimate_transmittance(tracked.medium, {{0, 4, 4}, {1, 0, 0}}, 0, 8, rng, counters);
+    estimate_transmittance(tracked.medium, {{{0, 4, 4}, {1, 0, 0}}, 0, 8}, rng, counters);
     steps.add(static_cast<double>(counters.steps));
     squares.add(std::pow(static_cast<double>(counters.steps) - kMean, 2));
   }
@@ -139,7 +140,7 @@ TEST(Tracking, TighterMajorantsTakeFewerSteps) {
     TrackingCounters counters;
     for (std::uint32_t n = 0; n < 1000; ++n) {
       Rng rng(7, 0, 0, n);
-      estimate_transmittance(tracked.medium, {{64, 4, 4}, {-1, 0, 0}}, 0, 60, rng, counters);
+      estimate_transmittance(tracked.medium, {{{64, 4, 4}, {-1, 0, 0}}, 0, 60}, rng, counters);
     }
     return counters.steps;
   };
@@ -153,7 +154,7 @@ TEST(Tracking, IsAFunctionOfItsRandomStream) {
   const auto fly = [&](std::uint64_t seed, std::uint32_t frame, std::uint32_t pixel, std::uint32_t sample) {
     TrackingCounters counters;
     Rng rng(seed, frame, pixel, sample);
-    return sample_free_flight(tracked.medium, ray, 0, 12, rng, counters).t_mm;
+    return sample_free_flight(tracked.medium, {ray, 0, 12}, rng, counters).t_mm;
   };
   for (std::uint32_t n = 0; n < 1000; ++n) EXPECT_EQ(fly(n, 1, 2, 3), fly(n, 1, 2, 3));
   EXPECT_NE(fly(1, 0, 0, 0), fly(2, 0, 0, 0));

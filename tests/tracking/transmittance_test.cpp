@@ -24,11 +24,11 @@ void expect_transmittance(const TrackedMedium& tracked, const IndexRay& ray, Int
   TrackingCounters counters;
   for (int n = 0; n < samples; ++n) {
     Rng rng(61, 0, 0, static_cast<std::uint32_t>(n)), other(62, 0, 0, static_cast<std::uint32_t>(n));
-    const float t = estimate_transmittance(tracked.medium, ray, run.t_near, run.t_far, rng, counters);
+    const float t = estimate_transmittance(tracked.medium, {ray, run.t_near, run.t_far}, rng, counters);
     ASSERT_TRUE(t >= 0 && t <= 1);
     ratio.add(t);
     const Collision collision =
-        sample_free_flight(tracked.medium, ray, run.t_near, run.t_far, other, counters);
+        sample_free_flight(tracked.medium, {ray, run.t_near, run.t_far}, other, counters);
     ASSERT_TRUE(!collision.real || (collision.t_mm >= run.t_near && collision.t_mm <= run.t_far));
     survived.add(collision.real ? 0 : 1);
   }
@@ -150,7 +150,7 @@ TEST(Transmittances, SmallOnesAreUnbiasedUnderRoulette) {
   TrackingCounters counters;
   for (int n = 0; n < 400000; ++n) {
     Rng rng(65, 0, 0, static_cast<std::uint32_t>(n));
-    ratio.add(estimate_transmittance(tracked.medium, {{0, 5, 1}, {1, 0, 0}}, 0, 9, rng, counters));
+    ratio.add(estimate_transmittance(tracked.medium, {{{0, 5, 1}, {1, 0, 0}}, 0, 9}, rng, counters));
   }
   EXPECT_LT(std::abs(ratio.z(std::exp(-9.0))), 4) << ratio.mean();
   EXPECT_LT(ratio.standard_error(), 0.03 * std::exp(-9.0));

@@ -1,0 +1,31 @@
+#pragma once
+#include <variant>
+
+#include "accel/accelerator_view.h"
+#include "accel/hierarchy.h"
+#include "accel/majorant_grid.h"
+
+namespace voxlume {
+
+struct AcceleratorChoice {
+  AcceleratorKind kind = AcceleratorKind::kHierarchy;
+  int cell_voxels = 0;  ///< edge of the finest cells; 0: the kind's own choice
+  HierarchyCosts costs;
+};
+
+/// Bounds of the extinction of one volume, by the chosen structure. Its value ranges are built once; update()
+/// must follow before view() is used.
+class Accelerator {
+ public:
+  Accelerator(const GridView& grid, const AcceleratorChoice& choice);
+
+  void update(const TransferFunction& transfer);
+  AcceleratorView view() const;
+
+ private:
+  using Structure = std::variant<MajorantGrid, MajorantHierarchy>;
+  static Structure build(const GridView& grid, const AcceleratorChoice& choice);
+  Structure structure_;
+};
+
+}  // namespace voxlume

@@ -1,0 +1,56 @@
+#pragma once
+#include <vector>
+
+#include "accel/block_join.h"
+#include "accel/hierarchy_view.h"
+#include "grid/value_range.h"
+#include "transfer/transfer_function.h"
+
+namespace voxlume {
+
+/// What decides which cells are joined to blocks. Any values give the same picture, at another speed.
+struct HierarchyCosts {
+  /// A look-up in units of a cell crossing; >= 0. Blocks are joined where crossing their parts would cost
+  /// more than the look-ups that the parts' own majorants save.
+  float lookup = 2.5f;
+  /// The largest block is 2^max_level cells a side, 0..6; at 0 every cell stands alone.
+  int max_level = 6;
+};
+
+/// Majorants of one volume under one transfer function, fine where the data varies and coarse where it is
+/// empty or even. Value ranges are built once per volume; a new transfer function recomputes the rest.
+class MajorantHierarchy {
+ public:
+  /// `cell_voxels` >= 1 is the finest cell's edge.
+  MajorantHierarchy(const GridView& grid, int cell_voxels, HierarchyCosts costs = {});
+
+  /// Recomputes every majorant: of a finest cell the exact supremum of mu_t over its value range times
+  /// 1 + 1e-4, of a block the largest of its cells.
+  void update(const TransferFunction& transfer);
+
+  HierarchyView view() const;
+
+ private:
+  /// The cells [lower, upper) of a cube of 8^3.
+  struct CellBox {
+    std::int32_t lower[3], upper[3];
+  };
+  CellBox cells_of(std::int64_t cube) const;
+  Block join_cube(std::int64_t cube, const TransferFunction& transfer);
+  void join_cubes(std::int64_t super_cube);
+  void fill_ring();
+  std::uint32_t& word(std::int32_t i, std::int32_t j, std::int32_t k);
+
+  ValueRangeGrid ranges_;
+  HierarchyCosts costs_;
+  Box3f domain_;
+  float chord_mm_;  ///< mean length of a random line through a finest cell
+  std::int32_t cubes_[3], super_cubes_[3];
+  std::vector<Block> cube_tops_;
+  std::vector<std::uint32_t> words_;
+};
+
+/// The finest cell chosen when the user names none: 2 voxels up to 2^24 voxels, 4 up to 2^30, 8 above.
+int default_hierarchy_voxels(const GridView& grid);
+
+}  // namespace voxlume

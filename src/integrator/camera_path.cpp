@@ -1,0 +1,181 @@
+#include "integrator/camera_path.h"
+
+#include <limits>
+
+#include "integrator/scatter_point.h"
+#include "light/sample_light.h"
+#include "sampling/warp.h"
+
+namespace voxlume {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+/// Scatterings before Russian roulette may end an unlimited path.
+constexpr int kRouletteDepth = 4;
+/// Where nothing absorbs, a path survives its n-th scattering with probability 1 - kEnding / n: light comes
+/// back from deep matter after n scatterings in proportion to n^-1.5, and weights that grow like n^kEnding,
+/// kEnding < 1/2, keep its variance finite, where any constant probability below 1 does not.
+constexpr float kEnding = 0.25f;
+
+/// Veach's power heuristic (beta = 2) for a technique of density `pdf` beside one of density `other`.
+float power_heuristic(float pdf, float other) noexcept {
+  const float ratio = other / pdf;
+  return 1.0f / (1.0f + ratio * ratio);
+}
+
+}  // namespace
+
+CameraPath::Wait CameraPath::begin(const SceneView& scene, int x, int y, std::uint32_t sample,
+                                   TraceCounters& counters) noexcept {
+  const std::uint32_t pixel =
+      static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(scene.width) + static_cast<std::uint32_t>(x);
+  rng_ = Rng(scene.seed, scene.frame, pixel, sample);
+  px_ = x + 0.5f + sample_filter(scene.filter, scene.filter_radius_px, rng_.next());
+  py_ = y + 0.5f + sample_filter(scene.filter, scene.filter_radius_px, rng_.next());
+  const float u_lens0 = rng_.next(), u_lens1 = rng_.next();
+  const CameraRay camera = camera_ray(scene.camera, px_, py_, u_lens0, u_lens1);
+  origin_world_ = camera.origin;
+  direction_world_ = camera.direction;
+  direction_pdf_ = 0;
+  throughput_ = Vec3f(1);
+  radiance_ = Vec3f(0);
+  depth_ = 0;
+  out_ = {};
+  ++counters.paths;
+  return fly(scene, counters);
+}
+
+/// Sets ray() to the part of a ray that is inside the visible region, or, for light that what is cut away
+/// blocks, inside the volume; false when there is none.
+bool CameraPath::set_ray(const SceneView& scene, Vec3f origin_world, Vec3f direction_world, float t_max,
+                         bool clipped) noexcept {
+  const IndexRay ray = to_index_ray(scene.medium.grid, origin_world, direction_world);
+  Interval<float> run = clip_ray(scene.domain_index, ray.origin_index, ray.direction_index, 0.0f, t_max);
+  if (!run.empty() && clipped)
+    run = clip_ray(scene.clip_world, origin_world, direction_world, run.t_near, run.t_far);
+  ray_ = {ray, run.t_near, run.t_far};
+  return !run.empty();
+}
+
+CameraPath::Wait CameraPath::fly(const SceneView& scene, TraceCounters& counters) noexcept {
+  const bool clipped = depth_ == 0 || !scene.clip_blocks_light;
+  if (set_ray(scene, origin_world_, direction_world_, kInfinity, clipped)) return Wait::kFlight;
+  return end_flight(scene, {}, counters);
+}
+
+CameraPath::Wait CameraPath::end() noexcept {
+  out_.radiance = radiance_;
+  return Wait::kNothing;
+}
+
+CameraPath::Wait CameraPath::end_flight(const SceneView& scene, const Collision& collision,
+                                        TraceCounters& counters) noexcept {
+  if (depth_ > 0) collect_emitters(scene, collision);
+  if (!collision.real) {
+    if (depth_ == 0) radiance_ = background(scene);
+    return end();
+  }
+  const MatterPoint matter = matter_at(scene, collision.p_index, collision.value);
+  // Matter that is cut away absorbs light that reaches it (only when it blocks light at all).
+  if (scene.clip_blocks_light && !scene.clip_world.contains(matter.p_world) && depth_ > 0) return end();
+
+  point_ = matter.scatter;
+  p_world_ = matter.p_world;
+  radiance_ += throughput_ * matter.emission;
+  if (depth_ == 0) {
+    out_.alpha = 1;
+    out_.depth_mm = collision.t_mm;
+    out_.albedo = point_.albedo;
+    out_.normal = point_.normal * point_.p_brdf;
+  }
+  if (scene.max_scatter > 0 && depth_ == scene.max_scatter) return end();
+
+  // Exposure Render decides at every event whether it is a surface or a medium (xu2024 eq. 4, without the
+  // division by the probability of the choice, which would double the scattered energy).
+  if (scene.scattering.shading == Shading::kExposureRender)
+    point_.p_brdf = rng_.next() < point_.p_brdf ? 1.0f : 0.0f;
+  ++counters.scatterings;
+  radiance_ += throughput_ * point_.albedo * scene.ambient;
+  if (scene.light_sampling == LightSampling::kDirection) return scatter(scene, counters);
+  return sample_direct_light(scene, counters);
+}
+
+/// Light met along a sampled direction before its collision: lights have no body, they only add.
+void CameraPath::collect_emitters(const SceneView& scene, const Collision& collision) noexcept {
+  if (scene.light_sampling == LightSampling::kLight) return;
+  const auto add = [&](const LightHit& hit) {
+    const float weight =
+        scene.light_sampling == LightSampling::kDirection ? 1.0f : power_heuristic(direction_pdf_, hit.pdf);
+    radiance_ += throughput_ * hit.radiance * weight;
+  };
+  visit_rect_hits(scene.lights, origin_world_, direction_world_, collision.t_mm, add);
+  if (!collision.real) add(environment_hit(scene.lights, direction_world_));
+}
+
+/// What a camera ray that meets nothing sees.
+Vec3f CameraPath::background(const SceneView& scene) noexcept {
+  switch (scene.background) {
+    case BackgroundKind::kTransparent:
+      return Vec3f(0);
+    case BackgroundKind::kColor:
+      return scene.background_color;
+    case BackgroundKind::kEnvironment:
+      break;
+  }
+  Vec3f direction = direction_world_;
+  if (scene.camera.background_versine > 0) {
+    const float u0 = rng_.next(), u1 = rng_.next();
+    direction = background_direction(scene.camera, px_, py_, u0, u1);
+  }
+  return environment_hit(scene.lights, direction).radiance;
+}
+
+/// Next-event estimation: light from one sampled emitter, scattered back along the path.
+CameraPath::Wait CameraPath::sample_direct_light(const SceneView& scene, TraceCounters& counters) noexcept {
+  const float u_pick = rng_.next(), u0 = rng_.next(), u1 = rng_.next();
+  const LightSample light = sample_light(scene.lights, p_world_, u_pick, u0, u1);
+  if (!(light.pdf > 0)) return scatter(scene, counters);
+  const ScatterValue scattered = eval_scatter(point_, -direction_world_, light.wi);
+  if (!(max_component(scattered.value * light.radiance) > 0)) return scatter(scene, counters);
+
+  ++counters.shadow_rays;
+  const float weight = light.delta || scene.light_sampling == LightSampling::kLight
+                           ? 1.0f
+                           : power_heuristic(light.pdf, scattered.pdf);
+  unshadowed_ = throughput_ * scattered.value * light.radiance * (weight / light.pdf);
+  if (set_ray(scene, p_world_, light.wi, light.distance_mm, !scene.clip_blocks_light))
+    return Wait::kTransmittance;
+  return end_shadow_ray(scene, 1.0f, counters);
+}
+
+CameraPath::Wait CameraPath::end_shadow_ray(const SceneView& scene, float transmittance,
+                                            TraceCounters& counters) noexcept {
+  radiance_ += unshadowed_ * transmittance;
+  return scatter(scene, counters);
+}
+
+/// Turns the path at a scattering, unless it is absorbed or nothing can come of it.
+CameraPath::Wait CameraPath::scatter(const SceneView& scene, TraceCounters& counters) noexcept {
+  if (scene.max_scatter > 0 && depth_ + 1 == scene.max_scatter && !scene.last_flight_collects) return end();
+  const float u_lobe = rng_.next(), u0 = rng_.next(), u1 = rng_.next();
+  const ScatterSample sample = sample_scatter(point_, -direction_world_, u_lobe, u0, u1);
+  if (!(sample.pdf > 0)) return end();
+  throughput_ *= sample.value / sample.pdf;
+  origin_world_ = p_world_;
+  direction_world_ = sample.wi;
+  direction_pdf_ = sample.pdf;
+  if (!(max_component(throughput_) > 0) || !survives(scene)) return end();
+  ++depth_;
+  return fly(scene, counters);
+}
+
+/// Russian roulette for paths without a scattering limit.
+bool CameraPath::survives(const SceneView& scene) noexcept {
+  if (scene.max_scatter > 0 || depth_ < kRouletteDepth) return true;
+  const float probability = std::min(1.0f - kEnding / static_cast<float>(depth_), max_component(throughput_));
+  if (rng_.next() >= probability) return false;
+  throughput_ *= 1.0f / probability;
+  return true;
+}
+
+}  // namespace voxlume

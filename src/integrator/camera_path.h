@@ -1,0 +1,60 @@
+#pragma once
+#include "film/film.h"
+#include "film/trace_counters.h"
+#include "integrator/scene_view.h"
+#include "material/scatter.h"
+#include "tracking/tracking.h"
+
+namespace voxlume {
+
+/// One camera sample of a pixel: an unbiased estimate of its radiance. Scattering positions by delta
+/// tracking, direct light by next-event estimation with ratio-tracked shadow rays, combined with direction
+/// sampling by the power heuristic; after the last allowed scattering the sampled direction still collects
+/// light that reaches it unscattered.
+///
+/// A path stops wherever a ray is to be tracked and goes on with what the tracker found, so that one thread
+/// can follow many paths at once.
+class CameraPath {
+ public:
+  /// What a path waits for; kNothing when it has ended.
+  enum class Wait { kNothing, kFlight, kTransmittance };
+
+  /// Begins sample `sample` of pixel (x, y). The random stream depends on (seed, frame, pixel, sample) alone.
+  Wait begin(const SceneView& scene, int x, int y, std::uint32_t sample, TraceCounters& counters) noexcept;
+  /// Goes on from kFlight.
+  Wait end_flight(const SceneView& scene, const Collision& collision, TraceCounters& counters) noexcept;
+  /// Goes on from kTransmittance, with an estimate of it in [0, 1].
+  Wait end_shadow_ray(const SceneView& scene, float transmittance, TraceCounters& counters) noexcept;
+
+  /// The ray to track, and its random stream, from which the tracker draws.
+  const TrackRay& ray() const noexcept { return ray_; }
+  Rng& rng() noexcept { return rng_; }
+  /// The result, once nothing is waited for.
+  const PixelSample& sample() const noexcept { return out_; }
+
+ private:
+  bool set_ray(const SceneView& scene, Vec3f origin_world, Vec3f direction_world, float t_max,
+               bool clipped) noexcept;
+  Wait fly(const SceneView& scene, TraceCounters& counters) noexcept;
+  Wait end() noexcept;
+  void collect_emitters(const SceneView& scene, const Collision& collision) noexcept;
+  Vec3f background(const SceneView& scene) noexcept;
+  Wait sample_direct_light(const SceneView& scene, TraceCounters& counters) noexcept;
+  Wait scatter(const SceneView& scene, TraceCounters& counters) noexcept;
+  bool survives(const SceneView& scene) noexcept;
+
+  Rng rng_{{0, 0, 0, 1}};
+  TrackRay ray_;
+  float px_ = 0, py_ = 0;
+  Vec3f origin_world_, direction_world_;
+  Vec3f throughput_;
+  float direction_pdf_ = 0;  ///< with which the direction was sampled; 0 for the camera's
+  int depth_ = 0;            ///< scatterings so far
+  ScatterPoint point_{};     ///< of the present scattering
+  Vec3f p_world_;
+  Vec3f unshadowed_;  ///< radiance that the shadow ray's transmittance scales
+  Vec3f radiance_;
+  PixelSample out_;
+};
+
+}  // namespace voxlume
