@@ -1,5 +1,8 @@
 #include "integrator/path_tracer.h"
 
+#include <utility>
+#include <vector>
+
 #include "integrator/camera_path.h"
 
 namespace voxlume {
@@ -22,8 +25,104 @@ PixelSample trace_camera_sample(const SceneView& scene, int x, int y, std::uint3
   return path.sample();
 }
 
+namespace {
+
+/// Samples of a tile that are held back until they can be added in order.
+constexpr int kHeldSamples = 4096;
+
+/// Follows a lane group's worth of paths at once through some samples of every pixel of a tile.
+class TileTracer {
+ public:
+  TileTracer(const SceneView& scene, const TileRect& tile, int sample_begin, int sample_end,
+             TraceCounters& counters)
+      : scene_(scene),
+        tile_(tile),
+        sample_begin_(sample_begin),
+        samples_per_pixel_(sample_end - sample_begin),
+        counters_(counters),
+        results_(static_cast<std::size_t>(tile.pixel_count()) * samples_per_pixel_) {}
+
+  void trace(Film& film) {
+    for (int lane = 0; lane < Lanes::kCount; ++lane) start_next(lane);
+    while (busy_lanes_ > 0) {
+      scene_.track_lanes(scene_.medium, lanes_);
+      for (int lane = 0; lane < Lanes::kCount; ++lane)
+        if (lanes_.state[lane] == Lanes::kDone) resume(lane);
+    }
+    for (std::size_t job = 0; job < results_.size(); ++job) {
+      const auto [x, y] = pixel_of(job);
+      film.add(x, y, results_[job]);
+    }
+  }
+
+ private:
+  using Wait = CameraPath::Wait;
+
+  /// Samples of one pixel follow each other: neighbouring lanes take like ways.
+  std::pair<int, int> pixel_of(std::size_t job) const {
+    const int pixel = static_cast<int>(job) / samples_per_pixel_, width = tile_.x1 - tile_.x0;
+    return {tile_.x0 + pixel % width, tile_.y0 + pixel / width};
+  }
+
+  /// Gives a lane the next path that has a ray to track, if there is one.
+  void start_next(int lane) {
+    lanes_.state[lane] = Lanes::kIdle;
+    while (next_job_ < results_.size()) {
+      const std::size_t job = next_job_++;
+      const auto [x, y] = pixel_of(job);
+      const int sample = sample_begin_ + static_cast<int>(job) % samples_per_pixel_;
+      const Wait wait = paths_[lane].begin(scene_, x, y, static_cast<std::uint32_t>(sample), counters_);
+      if (wait == Wait::kNothing) {
+        results_[job] = paths_[lane].sample();
+      } else {
+        jobs_[lane] = job;
+        ++busy_lanes_;
+        lanes_.put(lane, paths_[lane].ray(), wait == Wait::kTransmittance, paths_[lane].rng());
+        return;
+      }
+    }
+  }
+
+  /// Takes what the tracker found and gives the lane its next ray.
+  void resume(int lane) {
+    CameraPath& path = paths_[lane];
+    counters_.tracking_steps += lanes_.steps[lane];
+    counters_.majorant_violations += lanes_.violations[lane];
+    path.rng() = lanes_.stream(lane);
+    const Wait wait = lanes_.is_shadow[lane]
+                          ? path.end_shadow_ray(scene_, lanes_.transmittance[lane], counters_)
+                          : path.end_flight(scene_, lanes_.collision(lane, path.ray().t_near), counters_);
+    if (wait == Wait::kNothing) {
+      results_[jobs_[lane]] = path.sample();
+      --busy_lanes_;
+      start_next(lane);
+    } else {
+      lanes_.put(lane, path.ray(), wait == Wait::kTransmittance, path.rng());
+    }
+  }
+
+  const SceneView& scene_;
+  const TileRect tile_;
+  const int sample_begin_, samples_per_pixel_;
+  TraceCounters& counters_;
+  std::vector<PixelSample> results_;
+  std::size_t next_job_ = 0;
+  int busy_lanes_ = 0;
+  Lanes lanes_;
+  CameraPath paths_[Lanes::kCount];
+  std::size_t jobs_[Lanes::kCount];
+};
+
+}  // namespace
+
 void render_tile(const SceneView& scene, const TileRect& tile, int sample_begin, int sample_end, Film& film,
                  TraceCounters& counters) {
+  if (scene.track_lanes) {
+    const int at_once = std::max(1, kHeldSamples / static_cast<int>(tile.pixel_count()));
+    for (int begin = sample_begin; begin < sample_end; begin += at_once)
+      TileTracer(scene, tile, begin, std::min(begin + at_once, sample_end), counters).trace(film);
+    return;
+  }
   for (int y = tile.y0; y < tile.y1; ++y)
     for (int x = tile.x0; x < tile.x1; ++x)
       for (int sample = sample_begin; sample < sample_end; ++sample)

@@ -3,6 +3,7 @@
 
 #include "camera/camera.h"
 #include "light/lights_view.h"
+#include "tracking/lanes.h"
 #include "tracking/medium.h"
 #include "voxlume/scene.h"
 
@@ -31,9 +32,10 @@ enum class LightSampling { kMis, kLight, kDirection };
 /// Everything a path needs, as plain data. Compiled once by CompiledScene, which owns what this points to.
 struct SceneView {
   Medium medium;
-  Box3f domain_index;              ///< the volume
-  Box3f clip_world;                ///< LPS mm; what is kept
-  bool clip_blocks_light = false;  ///< what is cut away still attenuates light
+  VectorTracker track_lanes = nullptr;  ///< nullptr: rays are tracked one by one by scalar code
+  Box3f domain_index;                   ///< the volume
+  Box3f clip_world;                     ///< LPS mm; what is kept
+  bool clip_blocks_light = false;       ///< what is cut away still attenuates light
   ScatteringView scattering;
   LabelsView labels;
 

@@ -41,10 +41,20 @@ AcceleratorChoice accelerator_choice(const RenderDescription& render, const Grid
   return choice;
 }
 
+SimdTarget simd_target(const std::string& name) {
+  if (name == "auto") return best_simd_target();
+  std::string available = "auto";
+  for (const SimdTarget target :
+       {SimdTarget::kScalar, SimdTarget::kSse4, SimdTarget::kAvx2, SimdTarget::kAvx512, SimdTarget::kNeon}) {
+    if (!has_simd_target(target)) continue;
+    if (name == simd_name(target)) return target;
+    available += std::string(", ") + simd_name(target);
+  }
+  throw Error(ErrorCode::kUnsupported, "/render/simd",
+              "this machine has no \"" + name + "\"; available: " + available);
+}
+
 void check_built(const RenderDescription& render) {
-  if (render.simd != "auto" && render.simd != "scalar")
-    throw Error(ErrorCode::kUnsupported, "/render/simd",
-                "\"" + render.simd + "\" is not built yet; available: auto, scalar");
   if (render.denoise != "none")
     throw Error(ErrorCode::kUnsupported, "/render/denoise",
                 "\"" + render.denoise + "\" is not built yet; available: none");
@@ -120,6 +130,9 @@ void CompiledScene::compile_medium(const SceneDescription& local) {
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   view_.medium = {make_grid_view(moved_to_origin(volume_, origin_mm_)), transfer_.view(),
                   accelerator_.view()};
+  simd_ = simd_target(description_.render.simd);
+  view_.track_lanes = vector_tracker(simd_, view_.medium);
+  if (!view_.track_lanes) simd_ = SimdTarget::kScalar;
   view_.domain_index = view_.medium.grid.index_box();
   view_.clip_world = {Vec3f(-1e30f), Vec3f(1e30f)};
   if (const auto& clip = local.clip) {

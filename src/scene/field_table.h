@@ -11,7 +11,7 @@ namespace voxlume {
 
 inline const WordChoices kAcceleratorWords{{"auto", "none", "macrocell", "hierarchy"},
                                            {"octree", "residency"}};
-inline const WordChoices kSimdWords{{"auto", "scalar"}, {"sse4", "avx2", "avx512"}};
+inline const WordChoices kSimdWords{{"auto", "scalar", "sse4", "avx2", "avx512", "neon"}, {}};
 inline const WordChoices kDenoiseWords{{"none"}, {"decoupled", "wrls", "svgf"}};
 inline const WordChoices kLightSamplingWords{{"mis", "light", "direction"}, {}};
 inline const WordChoices kAovWords{{"alpha", "depth", "normal", "albedo", "samples", "variance"}, {}};

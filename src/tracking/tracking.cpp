@@ -13,7 +13,8 @@ void visit_tentative_collisions(const Medium& medium, const TrackRay& track, Rng
   const auto& [ray, t_near, t_far] = track;
   float tau = sample_optical_depth(rng.next());
   // From here on distances are counted from where the ray enters: far from the eye, t is coarser.
-  const Vec3f origin = ray.origin_index + ray.direction_index * t_near;
+  const Box3f domain = medium.grid.index_box();
+  const Vec3f origin = min(max(ray.origin_index + ray.direction_index * t_near, domain.lower), domain.upper);
   with_walk(medium.accelerator, origin, ray.direction_index, t_far - t_near, [&](auto& walk) {
     MajorantSegment segment;
     while (walk.next(segment)) {

@@ -176,6 +176,10 @@ TransferFunction::TransferFunction(const TransferDescription& d) {
     pieces_.push_back(piece);
   }
 
+  for (const TransferPiece& piece : pieces_)
+    extinction_.push_back({piece.start, piece.anchor, piece.mu_t, piece.mu_t_slope});
+  extinction_.push_back({kInfinity, 0, 0, 0});
+
   const float origin = pieces_[0].anchor, width = pieces_.back().start - origin;
   buckets_per_unit_ = width > 0 ? kBuckets / width : 0;
   std::int32_t piece = 0;
@@ -204,6 +208,7 @@ TransferView TransferFunction::view() const {
   TransferView view;
   view.pieces = pieces_.data();
   view.piece_count = static_cast<std::int32_t>(pieces_.size());
+  view.extinction = extinction_.data();
   view.bucket_piece = bucket_piece_.data();
   view.bucket_count = kBuckets;
   view.bucket_origin = pieces_[0].anchor;

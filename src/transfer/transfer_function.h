@@ -27,6 +27,7 @@ class TransferFunction {
 
  private:
   std::vector<TransferPiece> pieces_;
+  std::vector<ExtinctionPiece> extinction_;
   std::vector<std::int32_t> bucket_piece_;
   float buckets_per_unit_ = 0;
   float reference_length_mm_ = 1;

@@ -14,6 +14,13 @@ struct TransferPiece {
   Vec3f emission, emission_slope;
 };
 
+/// The extinction of a TransferPiece, for vector code.
+struct ExtinctionPiece {
+  float start;             ///< data units
+  float anchor;            ///< data units
+  float mu_t, mu_t_slope;  ///< 1/mm, 1/mm per data unit
+};
+
 /// Optical coefficients at a point.
 struct Coefficients {
   float mu_t;      ///< 1/mm
@@ -27,6 +34,7 @@ struct Coefficients {
 struct TransferView {
   const TransferPiece* pieces = nullptr;
   std::int32_t piece_count = 0;
+  const ExtinctionPiece* extinction = nullptr;  ///< of every piece, and one more that starts at infinity
   const std::int32_t* bucket_piece = nullptr;  ///< per bucket, the piece in force at its lower end
   std::int32_t bucket_count = 0;
   float bucket_origin = 0, buckets_per_unit = 0;
