@@ -4,7 +4,6 @@
 
 #include "integrator/scatter_point.h"
 #include "light/sample_light.h"
-#include "sampling/warp.h"
 
 namespace voxlume {
 namespace {
@@ -25,42 +24,26 @@ float power_heuristic(float pdf, float other) noexcept {
 
 }  // namespace
 
-CameraPath::Wait CameraPath::begin(const SceneView& scene, int x, int y, std::uint32_t sample,
+CameraPath::Wait CameraPath::begin(const SceneView& scene, const PrimaryRay& primary,
                                    TraceCounters& counters) noexcept {
-  const std::uint32_t pixel =
-      static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(scene.width) + static_cast<std::uint32_t>(x);
-  rng_ = Rng(scene.seed, scene.frame, pixel, sample);
-  px_ = x + 0.5f + sample_filter(scene.filter, scene.filter_radius_px, rng_.next());
-  py_ = y + 0.5f + sample_filter(scene.filter, scene.filter_radius_px, rng_.next());
-  const float u_lens0 = rng_.next(), u_lens1 = rng_.next();
-  const CameraRay camera = camera_ray(scene.camera, px_, py_, u_lens0, u_lens1);
-  origin_world_ = camera.origin;
-  direction_world_ = camera.direction;
+  rng_ = primary.rng;
+  px_ = primary.px;
+  py_ = primary.py;
+  origin_world_ = primary.origin_world;
+  direction_world_ = primary.direction_world;
+  ray_ = primary.track;
   direction_pdf_ = 0;
   throughput_ = Vec3f(1);
   radiance_ = Vec3f(0);
   depth_ = 0;
   out_ = {};
   ++counters.paths;
-  return fly(scene, counters);
-}
-
-/// Sets ray() to the part of a ray that is inside the visible region, or, for light that what is cut away
-/// blocks, inside the volume; false when there is none.
-bool CameraPath::set_ray(const SceneView& scene, Vec3f origin_world, Vec3f direction_world, float t_max,
-                         bool clipped) noexcept {
-  const IndexRay ray = to_index_ray(scene.medium.grid, origin_world, direction_world);
-  Interval<float> run = clip_ray(scene.domain_index, ray.origin_index, ray.direction_index, 0.0f, t_max);
-  if (!run.empty() && clipped)
-    run = clip_ray(scene.clip_world, origin_world, direction_world, run.t_near, run.t_far);
-  ray_ = {ray, run.t_near, run.t_far};
-  return !run.empty();
+  return primary.enters ? Wait::kFlight : end_flight(scene, {}, counters);
 }
 
 CameraPath::Wait CameraPath::fly(const SceneView& scene, TraceCounters& counters) noexcept {
-  const bool clipped = depth_ == 0 || !scene.clip_blocks_light;
-  if (set_ray(scene, origin_world_, direction_world_, kInfinity, clipped)) return Wait::kFlight;
-  return end_flight(scene, {}, counters);
+  ray_ = visible_part(scene, origin_world_, direction_world_, kInfinity, !scene.clip_blocks_light);
+  return enters() ? Wait::kFlight : end_flight(scene, {}, counters);
 }
 
 CameraPath::Wait CameraPath::end() noexcept {
@@ -143,9 +126,8 @@ CameraPath::Wait CameraPath::sample_direct_light(const SceneView& scene, TraceCo
                            ? 1.0f
                            : power_heuristic(light.pdf, scattered.pdf);
   unshadowed_ = throughput_ * scattered.value * light.radiance * (weight / light.pdf);
-  if (set_ray(scene, p_world_, light.wi, light.distance_mm, !scene.clip_blocks_light))
-    return Wait::kTransmittance;
-  return end_shadow_ray(scene, 1.0f, counters);
+  ray_ = visible_part(scene, p_world_, light.wi, light.distance_mm, !scene.clip_blocks_light);
+  return enters() ? Wait::kTransmittance : end_shadow_ray(scene, 1.0f, counters);
 }
 
 CameraPath::Wait CameraPath::end_shadow_ray(const SceneView& scene, float transmittance,

@@ -1,6 +1,7 @@
 #pragma once
 #include "film/film.h"
 #include "film/trace_counters.h"
+#include "integrator/primary_ray.h"
 #include "integrator/scene_view.h"
 #include "material/scatter.h"
 #include "tracking/tracking.h"
@@ -19,8 +20,8 @@ class CameraPath {
   /// What a path waits for; kNothing when it has ended.
   enum class Wait { kNothing, kFlight, kTransmittance };
 
-  /// Begins sample `sample` of pixel (x, y). The random stream depends on (seed, frame, pixel, sample) alone.
-  Wait begin(const SceneView& scene, int x, int y, std::uint32_t sample, TraceCounters& counters) noexcept;
+  /// Begins a sample.
+  Wait begin(const SceneView& scene, const PrimaryRay& primary, TraceCounters& counters) noexcept;
   /// Goes on from kFlight.
   Wait end_flight(const SceneView& scene, const Collision& collision, TraceCounters& counters) noexcept;
   /// Goes on from kTransmittance, with an estimate of it in [0, 1].
@@ -33,8 +34,7 @@ class CameraPath {
   const PixelSample& sample() const noexcept { return out_; }
 
  private:
-  bool set_ray(const SceneView& scene, Vec3f origin_world, Vec3f direction_world, float t_max,
-               bool clipped) noexcept;
+  bool enters() const noexcept { return ray_.t_near < ray_.t_far; }
   Wait fly(const SceneView& scene, TraceCounters& counters) noexcept;
   Wait end() noexcept;
   void collect_emitters(const SceneView& scene, const Collision& collision) noexcept;

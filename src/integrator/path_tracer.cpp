@@ -1,5 +1,6 @@
 #include "integrator/path_tracer.h"
 
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -12,7 +13,7 @@ PixelSample trace_camera_sample(const SceneView& scene, int x, int y, std::uint3
   using Wait = CameraPath::Wait;
   CameraPath path;
   TrackingCounters tracking;
-  Wait wait = path.begin(scene, x, y, sample, counters);
+  Wait wait = path.begin(scene, make_primary_ray(scene, x, y, sample), counters);
   while (wait != Wait::kNothing) {
     wait = wait == Wait::kFlight
                ? path.end_flight(scene, sample_free_flight(scene.medium, path.ray(), path.rng(), tracking),
@@ -45,7 +46,7 @@ class TileTracer {
   void trace(Film& film) {
     for (int lane = 0; lane < Lanes::kCount; ++lane) start_next(lane);
     while (busy_lanes_ > 0) {
-      scene_.track_lanes(scene_.medium, lanes_);
+      track_lanes_(scene_.medium, lanes_);
       for (int lane = 0; lane < Lanes::kCount; ++lane)
         if (lanes_.state[lane] == Lanes::kDone) resume(lane);
     }
@@ -64,14 +65,34 @@ class TileTracer {
     return {tile_.x0 + pixel % width, tile_.y0 + pixel / width};
   }
 
+  std::uint32_t sample_of(std::size_t job) const {
+    return static_cast<std::uint32_t>(sample_begin_ + static_cast<int>(job) % samples_per_pixel_);
+  }
+
+  /// Jobs are asked for in order.
+  PrimaryRay primary_ray(std::size_t job) {
+    if (!fill_) {
+      const auto [x, y] = pixel_of(job);
+      return make_primary_ray(scene_, x, y, sample_of(job));
+    }
+    const int at = static_cast<int>(job % PrimaryRayBatch::kCount);
+    if (at == 0) {
+      for (std::size_t i = 0; i < PrimaryRayBatch::kCount; ++i) {
+        const std::size_t one = std::min(job + i, results_.size() - 1);
+        std::tie(batch_.x[i], batch_.y[i]) = pixel_of(one);
+        batch_.sample[i] = static_cast<std::int32_t>(sample_of(one));
+      }
+      fill_(scene_, batch_);
+    }
+    return batch_.at(at);
+  }
+
   /// Gives a lane the next path that has a ray to track, if there is one.
   void start_next(int lane) {
     lanes_.state[lane] = Lanes::kIdle;
     while (next_job_ < results_.size()) {
       const std::size_t job = next_job_++;
-      const auto [x, y] = pixel_of(job);
-      const int sample = sample_begin_ + static_cast<int>(job) % samples_per_pixel_;
-      const Wait wait = paths_[lane].begin(scene_, x, y, static_cast<std::uint32_t>(sample), counters_);
+      const Wait wait = paths_[lane].begin(scene_, primary_ray(job), counters_);
       if (wait == Wait::kNothing) {
         results_[job] = paths_[lane].sample();
       } else {
@@ -105,6 +126,9 @@ class TileTracer {
   const TileRect tile_;
   const int sample_begin_, samples_per_pixel_;
   TraceCounters& counters_;
+  const VectorTracker track_lanes_ = vector_tracker(scene_.simd, scene_.medium);
+  const FillPrimaryRays fill_ = vector_primary_rays(scene_.simd, scene_.camera);
+  PrimaryRayBatch batch_;
   std::vector<PixelSample> results_;
   std::size_t next_job_ = 0;
   int busy_lanes_ = 0;
@@ -117,7 +141,7 @@ class TileTracer {
 
 void render_tile(const SceneView& scene, const TileRect& tile, int sample_begin, int sample_end, Film& film,
                  TraceCounters& counters) {
-  if (scene.track_lanes) {
+  if (scene.simd != SimdTarget::kScalar) {
     const int at_once = std::max(1, kHeldSamples / static_cast<int>(tile.pixel_count()));
     for (int begin = sample_begin; begin < sample_end; begin += at_once)
       TileTracer(scene, tile, begin, std::min(begin + at_once, sample_end), counters).trace(film);

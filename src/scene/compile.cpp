@@ -130,9 +130,8 @@ void CompiledScene::compile_medium(const SceneDescription& local) {
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   view_.medium = {make_grid_view(moved_to_origin(volume_, origin_mm_)), transfer_.view(),
                   accelerator_.view()};
-  simd_ = simd_target(description_.render.simd);
-  view_.track_lanes = vector_tracker(simd_, view_.medium);
-  if (!view_.track_lanes) simd_ = SimdTarget::kScalar;
+  view_.simd = simd_target(description_.render.simd);
+  if (!vector_tracker(view_.simd, view_.medium)) view_.simd = SimdTarget::kScalar;
   view_.domain_index = view_.medium.grid.index_box();
   view_.clip_world = {Vec3f(-1e30f), Vec3f(1e30f)};
   if (const auto& clip = local.clip) {

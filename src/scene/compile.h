@@ -32,8 +32,6 @@ class CompiledScene {
   const std::vector<std::string>& warnings() const { return warnings_; }
 
   double majorant_build_ms() const { return majorant_build_ms_; }
-  /// The instruction set that tracks rays.
-  SimdTarget simd() const { return simd_; }
 
  private:
   void check_values(const VolumeStatistics& statistics);
@@ -53,7 +51,6 @@ class CompiledScene {
   Accelerator accelerator_;
   std::optional<Lights> lights_;
   double majorant_build_ms_ = 0;
-  SimdTarget simd_ = SimdTarget::kScalar;
   SceneView view_;
 };
 

@@ -11,6 +11,7 @@
 #include <bit>
 
 #include "base/voxel_type.h"
+#include "sampling/vector_random-inl.h"
 #include "tracking/lanes.h"
 #include "tracking/voxel_lanes-inl.h"
 
@@ -33,8 +34,8 @@ class LaneTracker {
 
   void run() {
     // Crossings go on until this many of a vector's lanes wait for a look-up: look-ups cost the same for one.
-    constexpr std::size_t kLookUps = (kN + 1) / 2;
-    constexpr std::size_t kDoneLanes = 3;
+    constexpr std::size_t kLookUps = (5 * kN + 7) / 8;
+    constexpr std::size_t kDoneLanes = 4;
     for (;;) {
       std::size_t done = 0, under_way = 0;
       for (std::size_t v = 0; v < Lanes::kCount; v += kN) {
@@ -89,30 +90,18 @@ class LaneTracker {
 
   /// Rng::next() of the lanes in `where`; the others' streams stay.
   F draw(MaskU where, std::size_t v) {
-    const U s0 = load(lanes_.rng[0], v), s1 = load(lanes_.rng[1], v);
-    const U s2 = load(lanes_.rng[2], v), s3 = load(lanes_.rng[3], v);
-    const U bits = hn::Add(hn::RotateRight<32 - 7>(hn::Add(s0, s3)), s0);
-    const U t2 = hn::Xor(s2, s0), t3 = hn::Xor(s3, s1);
-    store_where(where, hn::Xor(s1, t2), lanes_.rng[1], v);
-    store_where(where, hn::Xor(s0, t3), lanes_.rng[0], v);
-    store_where(where, hn::Xor(t2, hn::ShiftLeft<9>(s1)), lanes_.rng[2], v);
-    store_where(where, hn::RotateRight<32 - 11>(t3), lanes_.rng[3], v);
-    return hn::Mul(hn::ConvertTo(kF, hn::BitCast(kI, hn::ShiftRight<8>(bits))), hn::Set(kF, 0x1p-24f));
+    VectorRng<decltype(kF)> rng{load(lanes_.rng[0], v), load(lanes_.rng[1], v), load(lanes_.rng[2], v),
+                                load(lanes_.rng[3], v)};
+    const F u = rng.next(kF);
+    store_where(where, rng.s0, lanes_.rng[0], v);
+    store_where(where, rng.s1, lanes_.rng[1], v);
+    store_where(where, rng.s2, lanes_.rng[2], v);
+    store_where(where, rng.s3, lanes_.rng[3], v);
+    return u;
   }
 
   /// sample_optical_depth.
-  static F optical_depth(F u) {
-    const I bits = hn::BitCast(kI, hn::Sub(hn::Set(kF, 1.0f), u));
-    const I exponent = hn::ShiftRight<23>(hn::Sub(bits, hn::Set(kI, kSqrtHalfBits)));
-    const F f = hn::Sub(hn::BitCast(kF, hn::Sub(bits, hn::ShiftLeft<23>(exponent))), hn::Set(kF, 1.0f));
-    F p = hn::Set(kF, kLogPolynomial[0]);
-    for (int i = 1; i < 9; ++i) p = hn::Add(hn::Mul(p, f), hn::Set(kF, kLogPolynomial[i]));
-    const F f2 = hn::Mul(f, f), e = hn::ConvertTo(kF, exponent);
-    const F tail = hn::Sub(hn::Add(hn::Mul(hn::Mul(p, f), f2), hn::Mul(e, hn::Set(kF, kLn2Low))),
-                           hn::Mul(hn::Set(kF, 0.5f), f2));
-    const F log = hn::Add(hn::Add(tail, f), hn::Mul(e, hn::Set(kF, kLn2High)));
-    return hn::Sub(hn::Zero(kF), log);
-  }
+  static F optical_depth(F u) { return vector_negative_log(kF, hn::Sub(hn::Set(kF, 1.0f), u)); }
 
   I cell_of(F p) const {
     const F at = hn::Add(hn::Mul(p, hn::Set(kF, hierarchy_.cells_per_voxel)), hn::Set(kF, 1.0f));

@@ -1,0 +1,57 @@
+#include "base/vector_targets.h"
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "integrator/primary_ray.cpp"
+#include <hwy/foreach_target.h>
+
+#include "integrator/primary_ray-inl.h"
+
+#if HWY_ONCE
+
+#include <limits>
+
+#include "sampling/warp.h"
+
+namespace voxlume {
+
+PrimaryRay make_primary_ray(const SceneView& scene, int x, int y, std::uint32_t sample) noexcept {
+  const std::uint32_t pixel =
+      static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(scene.width) + static_cast<std::uint32_t>(x);
+  PrimaryRay out{Rng(scene.seed, scene.frame, pixel, sample), 0, 0, {}, {}, {}, false};
+  out.px = x + 0.5f + sample_filter(scene.filter, scene.filter_radius_px, out.rng.next());
+  out.py = y + 0.5f + sample_filter(scene.filter, scene.filter_radius_px, out.rng.next());
+  const float u_lens0 = out.rng.next(), u_lens1 = out.rng.next();
+  const CameraRay camera = camera_ray(scene.camera, out.px, out.py, u_lens0, u_lens1);
+  out.origin_world = camera.origin;
+  out.direction_world = camera.direction;
+  const bool clipped = true;
+  out.track = visible_part(scene, camera.origin, camera.direction, std::numeric_limits<float>::infinity(), clipped);
+  out.enters = out.track.t_near < out.track.t_far;
+  return out;
+}
+
+FillPrimaryRays vector_primary_rays(SimdTarget target, const CameraView& camera) {
+  if (camera.aperture_radius_mm > 0) return nullptr;
+  switch (target) {
+#if HWY_TARGETS & HWY_AVX3
+    case SimdTarget::kAvx512:
+      return &N_AVX3::fill_primary_rays;
+#endif
+#if HWY_TARGETS & HWY_AVX2
+    case SimdTarget::kAvx2:
+      return &N_AVX2::fill_primary_rays;
+#endif
+#if HWY_TARGETS & HWY_SSE4
+    case SimdTarget::kSse4:
+      return &N_SSE4::fill_primary_rays;
+#endif
+#if HWY_TARGETS & HWY_NEON
+    case SimdTarget::kNeon:
+      return &N_NEON::fill_primary_rays;
+#endif
+    default:
+      return nullptr;
+  }
+}
+
+}  // namespace voxlume
+#endif  // HWY_ONCE
