@@ -9,7 +9,7 @@ namespace voxlume {
 /// Many rays under way at once, a column of every array each. The vector tracker moves them on together; who
 /// owns the lanes puts rays in and takes results out.
 struct alignas(64) Lanes {
-  static constexpr int kCount = 32;
+  static constexpr int kCount = 64;
   template <class T>
   using PerLane = std::array<T, kCount>;
 

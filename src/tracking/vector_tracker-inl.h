@@ -36,20 +36,22 @@ class LaneTracker {
     // Crossings go on until this many of a vector's lanes wait for a look-up: look-ups cost the same for one.
     constexpr std::size_t kLookUps = (5 * kN + 7) / 8;
     constexpr std::size_t kDoneLanes = 4;
+    constexpr std::size_t kVectors = Lanes::kCount / kN;
+    for (std::size_t i = 0; i < kVectors; ++i) begin(i * kN);
     for (;;) {
       std::size_t done = 0, under_way = 0;
-      for (std::size_t v = 0; v < Lanes::kCount; v += kN) {
-        begin(v);
-        std::size_t look_ups = count(v, Lanes::kLookUp), crossing = count(v, Lanes::kCross);
-        while (crossing > 0 && look_ups < kLookUps) {
-          cross(v);
-          look_ups = count(v, Lanes::kLookUp);
-          crossing = count(v, Lanes::kCross);
-        }
-        if (look_ups > 0) look_up(v);
-        const std::size_t done_here = count(v, Lanes::kDone);
-        done += done_here;
+      bool full[kVectors];
+      // The vectors take turns, so that one computes while the other waits for memory.
+      for (std::size_t i = 0; i < kVectors; ++i) {
+        const std::size_t v = i * kN;
+        const std::size_t crossing = count(v, Lanes::kCross), look_ups = count(v, Lanes::kLookUp);
         under_way += crossing + look_ups;
+        full[i] = look_ups >= kLookUps || (look_ups > 0 && crossing == 0);
+        if (crossing > 0 && !full[i]) cross(v);
+      }
+      for (std::size_t i = 0; i < kVectors; ++i) {
+        if (full[i]) look_up(i * kN);
+        done += count(i * kN, Lanes::kDone);
       }
       if (done >= kDoneLanes || under_way == 0) return;
     }
@@ -241,20 +243,18 @@ class LaneTracker {
     const F last = hn::Set(kF, static_cast<float>(transfer_.bucket_count - 1));
     const F inside = hn::IfThenElseZero(hn::Gt(at, hn::Zero(kF)), at);  // 0 for NaN
     const I bucket = hn::ConvertTo(kI, hn::Min(inside, last));
-    I piece = hn::GatherIndex(kI, transfer_.bucket_piece, bucket);
-    const auto* table = &transfer_.extinction->start;
+    const I found = hn::GatherIndex(kI, transfer_.bucket_piece, bucket);
+    const F split = hn::GatherIndex(kF, transfer_.bucket_split, bucket);
     const I one = hn::Set(kI, 1);
-    for (;;) {
+    const auto crowded = hn::Lt(found, hn::Zero(kI));
+    I piece = hn::IfThenElse(crowded, hn::Not(found), found);
+    piece = hn::Add(piece, hn::IfThenElseZero(to_i(hn::Ge(value, split)), one));
+    const auto* table = &transfer_.extinction->start;
+    auto unsure = hn::And(to_i(where), crowded);
+    while (!hn::AllFalse(kI, unsure)) {
       const F next = hn::GatherIndex(kF, table + 4, hn::ShiftLeft<2>(piece));
-      const MaskF beyond = hn::And(where, hn::Ge(value, next));
-      if (hn::AllFalse(kF, beyond)) break;
-      piece = hn::Add(piece, hn::IfThenElseZero(to_i(beyond), one));
-    }
-    for (;;) {
-      const F start = hn::GatherIndex(kF, table, hn::ShiftLeft<2>(piece));
-      const MaskF before = hn::And(where, hn::Lt(value, start));
-      if (hn::AllFalse(kF, before)) break;
-      piece = hn::Sub(piece, hn::IfThenElseZero(to_i(before), one));
+      unsure = hn::And(unsure, to_i(hn::Ge(value, next)));
+      piece = hn::Add(piece, hn::IfThenElseZero(unsure, one));
     }
     const I word = hn::ShiftLeft<2>(piece);
     const F anchor = hn::GatherIndex(kF, table + 1, word), mu_0 = hn::GatherIndex(kF, table + 2, word);

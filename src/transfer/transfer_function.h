@@ -29,6 +29,8 @@ class TransferFunction {
   std::vector<TransferPiece> pieces_;
   std::vector<ExtinctionPiece> extinction_;
   std::vector<std::int32_t> bucket_piece_;
+  std::vector<float> bucket_split_;
+  void fill_buckets();
   float buckets_per_unit_ = 0;
   float reference_length_mm_ = 1;
   /// range_max_[level][i]: the supremum of mu_t over pieces i .. i + 2^level - 1.

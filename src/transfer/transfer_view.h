@@ -34,8 +34,10 @@ struct Coefficients {
 struct TransferView {
   const TransferPiece* pieces = nullptr;
   std::int32_t piece_count = 0;
-  const ExtinctionPiece* extinction = nullptr;  ///< of every piece, and one more that starts at infinity
-  const std::int32_t* bucket_piece = nullptr;  ///< per bucket, the piece in force at its lower end
+  const ExtinctionPiece* extinction = nullptr;  ///< of every piece, and one that starts at NaN, which nothing reaches
+  /// Per bucket, a piece in force at its lower end or before; ~piece where more than one begins behind that.
+  const std::int32_t* bucket_piece = nullptr;
+  const float* bucket_split = nullptr;  ///< per bucket, where the next piece starts; NaN after the last
   std::int32_t bucket_count = 0;
   float bucket_origin = 0, buckets_per_unit = 0;
   float reference_length_mm = 1;  ///< divided by the density scale: opacity = 1 - exp(-mu_t * this)
@@ -49,8 +51,8 @@ inline const TransferPiece& find_piece(const TransferView& tf, float value) noex
                                                              : tf.bucket_count - 1)
              : 0;
   std::int32_t piece = tf.bucket_piece[bucket];
-  while (piece + 1 < tf.piece_count && value >= tf.pieces[piece + 1].start) ++piece;
-  while (piece > 0 && value < tf.pieces[piece].start) --piece;
+  if (piece < 0) piece = ~piece;
+  while (value >= tf.extinction[piece + 1].start) ++piece;
   return tf.pieces[piece];
 }
 

@@ -195,8 +195,8 @@ TEST_P(VectorTracking, SignedValuesAndNaN) {
 INSTANTIATE_TEST_SUITE_P(Targets, VectorTracking,
                          testing::Values(SimdTarget::kSse4, SimdTarget::kAvx2, SimdTarget::kAvx512,
                                          SimdTarget::kNeon),
-                         [](const auto& info) {
-                           switch (info.param) {
+                         [](const auto& target) {
+                           switch (target.param) {
                              case SimdTarget::kSse4:
                                return "Sse4";
                              case SimdTarget::kAvx2:
