@@ -152,8 +152,8 @@ Json peer(const std::string& folder, int max_scatter, int spp) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 2 || argc > 3) {
-    std::fprintf(stderr, "usage: voxlume_bench SCENES_FOLDER [ROUNDS]\n");
+  if (argc < 2 || argc > 4) {
+    std::fprintf(stderr, "usage: voxlume_bench SCENES_FOLDER [ROUNDS [tracking|peer]]\n");
     return 2;
   }
   try {
@@ -161,8 +161,9 @@ int main(int argc, char** argv) {
     const int rounds = argc > 2 ? std::max(1, std::atoi(argv[2])) : 5;
     Json out;
     out["simd"] = "scalar";
-    out["tracking"] = tracking(folder, rounds);
-    out["peer"] = Json::array({peer(folder, 1, 16), peer(folder, 100, 8)});
+    const std::string part = argc > 3 ? argv[3] : "";
+    if (part != "peer") out["tracking"] = tracking(folder, rounds);
+    if (part != "tracking") out["peer"] = Json::array({peer(folder, 1, 16), peer(folder, 100, 8)});
     std::cout << out.dump(2) << "\n";
   } catch (const Error& error) {
     std::fprintf(stderr, "voxlume_bench: %s\n", error.what());

@@ -65,7 +65,7 @@ MatterPoint matter_at(const SceneView& scene, Vec3f p_index, float value) noexce
   scatter.p_brdf = scattering.shading == Shading::kBrdf
                        ? 1.0f
                        : surface_share(scattering.surface_share, scattering.gradient_factor,
-                                       scattering.opacity_modulated, optics.opacity, magnitude);
+                                       scattering.opacity_modulated, opacity_of(scene.medium.transfer, optics.mu_t), magnitude);
   return point;
 }
 

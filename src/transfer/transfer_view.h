@@ -24,7 +24,6 @@ struct ExtinctionPiece {
 /// Optical coefficients at a point.
 struct Coefficients {
   float mu_t;      ///< 1/mm
-  float opacity;   ///< 1 - exp(-mu_t * reference length), in [0,1): what the surface share is modulated by
   Vec3f albedo;    ///< mu_s / mu_t
   Vec3f emission;  ///< L_e; the source term is mu_t * L_e
 };
@@ -63,13 +62,18 @@ inline float classify_mu_t(const TransferView& tf, float value) noexcept {
   return mu_t > 0 ? mu_t : 0;
 }
 
+/// Opacity over the reference length, in [0,1): what the surface share is modulated by.
+inline float opacity_of(const TransferView& tf, float mu_t) noexcept {
+  return -std::expm1(-mu_t * tf.reference_length_mm);
+}
+
 /// All coefficients at a data value.
 inline Coefficients classify(const TransferView& tf, float value) noexcept {
   const TransferPiece& piece = find_piece(tf, value);
   const float offset = value - piece.anchor;
   const float mu_t = piece.mu_t + piece.mu_t_slope * offset;
   if (!(mu_t > 0)) return {};
-  return {mu_t, -std::expm1(-mu_t * tf.reference_length_mm),
+  return {mu_t,
           min(max(piece.albedo + piece.albedo_slope * offset, Vec3f(0)), Vec3f(1)),
           max(piece.emission + piece.emission_slope * offset, Vec3f(0))};
 }

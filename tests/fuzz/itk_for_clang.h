@@ -6,6 +6,6 @@
 #undef __clang__
 #undef __GNUC__
 #define __GNUC__ 12
-#include_next <itk_compiler_detection.h>
+#include <itk_compiler_detection.h>
 #pragma pop_macro("__GNUC__")
 #pragma pop_macro("__clang__")
