@@ -141,6 +141,8 @@ struct ClipDescription {
 };
 
 enum class PixelFilter { kGaussian, kBox };
+/// How the first random numbers of a pixel's samples are chosen.
+enum class Sampler { kSobol, kRandom };
 enum class ToneCurve { kFilmic, kSrgb };
 
 /// The picture: its size, how long to work on it and how it is developed.
@@ -166,7 +168,9 @@ struct RenderDescription {
   std::string accelerator = "auto";  ///< auto none macrocell hierarchy
   int macrocell_voxels = 0;          ///< edge of the finest cells; 0 chooses
   double lookup_cost = 2.5;          ///< of the hierarchy: a data look-up in units of a cell crossing
-  std::string simd = "auto";         ///< auto scalar
+  Sampler sampler = Sampler::kSobol;
+  int light_samples = 1;      ///< shadow rays at the first scattering of a path
+  std::string simd = "auto";  ///< auto scalar
   std::string denoise = "none";
   /// Which techniques gather light at a scattering: "mis" (both), "light" (next-event estimation alone) or
   /// "direction" (direction sampling alone, which never finds point and directional lights).

@@ -27,6 +27,9 @@ float power_heuristic(float pdf, float other) noexcept {
 CameraPath::Wait CameraPath::begin(const SceneView& scene, const PrimaryRay& primary,
                                    TraceCounters& counters) noexcept {
   rng_ = primary.rng;
+  pixel_seed_ = primary.pixel_seed;
+  sample_ = primary.sample;
+  u_light_ = primary.u_light;
   px_ = primary.px;
   py_ = primary.py;
   origin_world_ = primary.origin_world;
@@ -39,6 +42,13 @@ CameraPath::Wait CameraPath::begin(const SceneView& scene, const PrimaryRay& pri
   out_ = {};
   ++counters.paths;
   return primary.enters ? Wait::kFlight : end_flight(scene, {}, counters);
+}
+
+/// Two dimensions of the sample: stratified at the first scattering, independent later.
+UnitPair CameraPath::draw_pair(const SceneView& scene, SobolPair pair) noexcept {
+  if (depth_ == 0 && scene.sampler == Sampler::kSobol) return sobol_pair(pixel_seed_, sample_, pair);
+  const float u0 = rng_.next(), u1 = rng_.next();
+  return {u0, u1};
 }
 
 CameraPath::Wait CameraPath::fly(const SceneView& scene, TraceCounters& counters) noexcept {
@@ -77,6 +87,7 @@ CameraPath::Wait CameraPath::end_flight(const SceneView& scene, const Collision&
   // division by the probability of the choice, which would double the scattered energy).
   if (scene.scattering.shading == Shading::kExposureRender)
     point_.p_brdf = rng_.next() < point_.p_brdf ? 1.0f : 0.0f;
+  choice_ = scatter_choice(point_, -direction_world_);
   ++counters.scatterings;
   radiance_ += throughput_ * point_.albedo * scene.ambient;
   if (scene.light_sampling == LightSampling::kDirection) return scatter(scene, counters);
@@ -87,8 +98,9 @@ CameraPath::Wait CameraPath::end_flight(const SceneView& scene, const Collision&
 void CameraPath::collect_emitters(const SceneView& scene, const Collision& collision) noexcept {
   if (scene.light_sampling == LightSampling::kLight) return;
   const auto add = [&](const LightHit& hit) {
-    const float weight =
-        scene.light_sampling == LightSampling::kDirection ? 1.0f : power_heuristic(direction_pdf_, hit.pdf);
+    const float weight = scene.light_sampling == LightSampling::kDirection
+                             ? 1.0f
+                             : power_heuristic(direction_pdf_, hit.pdf * hit_samples_);
     radiance_ += throughput_ * hit.radiance * weight;
   };
   visit_rect_hits(scene.lights, origin_world_, direction_world_, collision.t_mm, add);
@@ -113,39 +125,54 @@ Vec3f CameraPath::background(const SceneView& scene) noexcept {
   return environment_hit(scene.lights, direction).radiance;
 }
 
-/// Next-event estimation: light from one sampled emitter, scattered back along the path.
+/// Next-event estimation: light from sampled emitters, scattered back along the path.
 CameraPath::Wait CameraPath::sample_direct_light(const SceneView& scene, TraceCounters& counters) noexcept {
-  const float u_pick = rng_.next(), u0 = rng_.next(), u1 = rng_.next();
-  const LightSample light = sample_light(scene.lights, p_world_, u_pick, u0, u1);
-  if (!(light.pdf > 0)) return scatter(scene, counters);
-  const ScatterValue scattered = eval_scatter(point_, -direction_world_, light.wi);
-  if (!(max_component(scattered.value * light.radiance) > 0)) return scatter(scene, counters);
+  u_pick_ = depth_ == 0 && u_light_ >= 0 ? u_light_ : rng_.next();
+  light_samples_left_ = light_samples(scene);
+  return next_light_sample(scene, counters);
+}
 
-  ++counters.shadow_rays;
-  const float weight = light.delta || scene.light_sampling == LightSampling::kLight
-                           ? 1.0f
-                           : power_heuristic(light.pdf, scattered.pdf);
-  unshadowed_ = throughput_ * scattered.value * light.radiance * (weight / light.pdf);
-  ray_ = visible_part(scene, p_world_, light.wi, light.distance_mm, !scene.clip_blocks_light);
-  return enters() ? Wait::kTransmittance : end_shadow_ray(scene, 1.0f, counters);
+CameraPath::Wait CameraPath::next_light_sample(const SceneView& scene, TraceCounters& counters) noexcept {
+  const auto count = static_cast<float>(light_samples(scene));
+  while (light_samples_left_ > 0) {
+    const auto stratum = static_cast<float>(--light_samples_left_);
+    const auto [u0, u1] = draw_pair(scene, SobolPair::kFirstLight);
+    const LightSample light = sample_light(scene.lights, p_world_, (stratum + u_pick_) / count, u0, u1);
+    if (!(light.pdf > 0)) continue;
+    const ScatterValue scattered = eval_scatter(point_, choice_, -direction_world_, light.wi);
+    if (!(max_component(scattered.value * light.radiance) > 0)) continue;
+
+    ++counters.shadow_rays;
+    const float pdf = light.pdf * count;
+    const float weight = light.delta || scene.light_sampling == LightSampling::kLight
+                             ? 1.0f
+                             : power_heuristic(pdf, scattered.pdf);
+    unshadowed_ = throughput_ * scattered.value * light.radiance * (weight / pdf);
+    ray_ = visible_part(scene, p_world_, light.wi, light.distance_mm, !scene.clip_blocks_light);
+    if (enters()) return Wait::kTransmittance;
+    radiance_ += unshadowed_;
+  }
+  return scatter(scene, counters);
 }
 
 CameraPath::Wait CameraPath::end_shadow_ray(const SceneView& scene, float transmittance,
                                             TraceCounters& counters) noexcept {
   radiance_ += unshadowed_ * transmittance;
-  return scatter(scene, counters);
+  return next_light_sample(scene, counters);
 }
 
 /// Turns the path at a scattering, unless it is absorbed or nothing can come of it.
 CameraPath::Wait CameraPath::scatter(const SceneView& scene, TraceCounters& counters) noexcept {
   if (scene.max_scatter > 0 && depth_ + 1 == scene.max_scatter && !scene.last_flight_collects) return end();
-  const float u_lobe = rng_.next(), u0 = rng_.next(), u1 = rng_.next();
-  const ScatterSample sample = sample_scatter(point_, -direction_world_, u_lobe, u0, u1);
+  const float u_lobe = rng_.next();
+  const auto [u0, u1] = draw_pair(scene, SobolPair::kFirstDirection);
+  const ScatterSample sample = sample_scatter(point_, choice_, -direction_world_, u_lobe, u0, u1);
   if (!(sample.pdf > 0)) return end();
   throughput_ *= sample.value / sample.pdf;
   origin_world_ = p_world_;
   direction_world_ = sample.wi;
   direction_pdf_ = sample.pdf;
+  hit_samples_ = static_cast<float>(light_samples(scene));
   if (!(max_component(throughput_) > 0) || !survives(scene)) return end();
   ++depth_;
   return fly(scene, counters);
@@ -153,7 +180,7 @@ CameraPath::Wait CameraPath::scatter(const SceneView& scene, TraceCounters& coun
 
 /// Russian roulette for paths without a scattering limit.
 bool CameraPath::survives(const SceneView& scene) noexcept {
-  if (scene.max_scatter > 0 || depth_ < kRouletteDepth) return true;
+  if (depth_ < kRouletteDepth) return true;
   const float probability = std::min(1.0f - kEnding / static_cast<float>(depth_), max_component(throughput_));
   if (rng_.next() >= probability) return false;
   throughput_ *= 1.0f / probability;

@@ -40,7 +40,9 @@ class PrimaryRayVector {
   };
 
   static F set(float x) { return hn::Set(kF, x); }
-  static Vec scaled(Vec3f v, F s) { return {hn::Mul(set(v.x), s), hn::Mul(set(v.y), s), hn::Mul(set(v.z), s)}; }
+  static Vec scaled(Vec3f v, F s) {
+    return {hn::Mul(set(v.x), s), hn::Mul(set(v.y), s), hn::Mul(set(v.z), s)};
+  }
   static Vec add(Vec a, Vec b) { return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)}; }
   static Vec broadcast(Vec3f v) { return {set(v.x), set(v.y), set(v.z)}; }
   static Vec linear(const Affinef& m, const Vec& v) {
@@ -93,13 +95,26 @@ class PrimaryRayVector {
   void fill(std::size_t v) {
     const auto x = hn::Load(kI, batch_.x.data() + v), y = hn::Load(kI, batch_.y.data() + v);
     const auto pixel = hn::Add(hn::Mul(y, hn::Set(kI, scene_.width)), x);
-    auto rng = seed_vector_rng(kF, scene_.seed, scene_.frame, hn::BitCast(kU, pixel),
-                               hn::BitCast(kU, hn::Load(kI, batch_.sample.data() + v)));
+    const auto sample = hn::BitCast(kU, hn::Load(kI, batch_.sample.data() + v));
+    const std::uint32_t picture = sobol_picture_seed(scene_.seed, scene_.frame);
+    const auto pixel_seed = vector_mix_bits(kU, hn::Xor(hn::BitCast(kU, pixel), hn::Set(kU, picture)));
+    auto rng = seed_vector_rng(kF, scene_.seed, scene_.frame, hn::BitCast(kU, pixel), sample);
+    F image0, image1, u_flight = set(-1.0f), u_light = set(-1.0f);
+    if (scene_.sampler == Sampler::kSobol) {
+      vector_sobol_pair(kF, pixel_seed, sample, SobolPair::kImage, image0, image1);
+      vector_sobol_pair(kF, pixel_seed, sample, SobolPair::kFirstFlight, u_flight, u_light);
+    } else {
+      image0 = rng.next(kF);
+      image1 = rng.next(kF);
+      rng.next(kF);  // the lens
+      rng.next(kF);
+    }
     const F half = set(0.5f);
-    const F px = hn::Add(hn::Add(hn::ConvertTo(kF, x), half), sample_filter(rng.next(kF)));
-    const F py = hn::Add(hn::Add(hn::ConvertTo(kF, y), half), sample_filter(rng.next(kF)));
-    rng.next(kF);  // the lens
-    rng.next(kF);
+    const F px = hn::Add(hn::Add(hn::ConvertTo(kF, x), half), sample_filter(image0));
+    const F py = hn::Add(hn::Add(hn::ConvertTo(kF, y), half), sample_filter(image1));
+    hn::Store(pixel_seed, kU, batch_.pixel_seed.data() + v);
+    hn::Store(u_flight, kF, batch_.u_flight.data() + v);
+    hn::Store(u_light, kF, batch_.u_light.data() + v);
     hn::Store(rng.s0, kU, batch_.rng[0].data() + v);
     hn::Store(rng.s1, kU, batch_.rng[1].data() + v);
     hn::Store(rng.s2, kU, batch_.rng[2].data() + v);
@@ -109,8 +124,10 @@ class PrimaryRayVector {
 
     const CameraView& camera = scene_.camera;
     const F one = set(1.0f), two = set(2.0f);
-    const F across = hn::Mul(hn::Sub(hn::Div(hn::Mul(two, px), set(camera.width_px)), one), set(camera.half_width));
-    const F along = hn::Mul(hn::Sub(one, hn::Div(hn::Mul(two, py), set(camera.height_px))), set(camera.half_height));
+    const F across =
+        hn::Mul(hn::Sub(hn::Div(hn::Mul(two, px), set(camera.width_px)), one), set(camera.half_width));
+    const F along =
+        hn::Mul(hn::Sub(one, hn::Div(hn::Mul(two, py), set(camera.height_px))), set(camera.half_height));
     const Vec offset = add(scaled(camera.right, across), scaled(camera.up, along));
     Vec origin = broadcast(camera.eye_mm), direction = broadcast(camera.forward);
     if (camera.orthographic)

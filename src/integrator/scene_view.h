@@ -33,9 +33,9 @@ enum class LightSampling { kMis, kLight, kDirection };
 struct SceneView {
   Medium medium;
   SimdTarget simd = SimdTarget::kScalar;  ///< the instruction set that tracks rays; kScalar: one by one
-  Box3f domain_index;                   ///< the volume
-  Box3f clip_world;                     ///< LPS mm; what is kept
-  bool clip_blocks_light = false;       ///< what is cut away still attenuates light
+  Box3f domain_index;                     ///< the volume
+  Box3f clip_world;                       ///< LPS mm; what is kept
+  bool clip_blocks_light = false;         ///< what is cut away still attenuates light
   ScatteringView scattering;
   LabelsView labels;
 
@@ -48,9 +48,11 @@ struct SceneView {
   std::int32_t width = 0, height = 0;
   PixelFilter filter = PixelFilter::kGaussian;
   float filter_radius_px = 1.5f;
+  Sampler sampler = Sampler::kSobol;
   std::uint64_t seed = 0;
   std::uint32_t frame = 0;
-  std::int32_t max_scatter = 2;  ///< 0: no limit
+  std::int32_t max_scatter = 2;    ///< 0: no limit
+  std::int32_t light_samples = 1;  ///< at the first scattering; later ones take one
   LightSampling light_sampling = LightSampling::kMis;
   /// Whether a flight after the last scattering can meet anything that emits.
   bool last_flight_collects = true;

@@ -4,8 +4,8 @@
 
 namespace voxlume {
 
-// log(1 + f) = f - f^2/2 + f^3 * polynomial for f in [sqrt(1/2) - 1, sqrt(2) - 1]: the coefficients of Cephes'
-// logf (Moshier 1992); ln 2 in two parts.
+// log(1 + f) = f - f^2/2 + f^3 * polynomial for f in [sqrt(1/2) - 1, sqrt(2) - 1]: the coefficients of
+// Cephes' logf (Moshier 1992); ln 2 in two parts.
 inline constexpr std::int32_t kSqrtHalfBits = 0x3f3504f3;
 inline constexpr float kLogPolynomial[9] = {7.0376836292e-2f,  -1.1514610310e-1f, 1.1676998740e-1f,
                                             -1.2420140846e-1f, 1.4249322787e-1f,  -1.6668057665e-1f,

@@ -39,6 +39,7 @@ class Rng {
     // The one state that xoshiro never leaves.
     if ((state_[0] | state_[1] | state_[2] | state_[3]) == 0) state_[0] = 1;
   }
+  constexpr Rng() : state_{1, 0, 0, 0} {}
   /// Goes on where another stream stands.
   constexpr explicit Rng(const std::array<std::uint32_t, 4>& state) : state_(state) {}
 

@@ -10,6 +10,7 @@
 
 #include "sampling/logarithm.h"
 #include "sampling/rng.h"
+#include "sampling/sobol.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace voxlume {
@@ -58,6 +59,64 @@ struct VectorRng {
     return vector_unit_float(d, bits);
   }
 };
+
+/// mix_bits.
+template <class DU>
+hn::Vec<DU> vector_mix_bits(DU du, hn::Vec<DU> x) {
+  x = hn::Mul(hn::Xor(x, hn::ShiftRight<16>(x)), hn::Set(du, kMixFactor0));
+  x = hn::Mul(hn::Xor(x, hn::ShiftRight<15>(x)), hn::Set(du, kMixFactor1));
+  return hn::Xor(x, hn::ShiftRight<16>(x));
+}
+
+/// reverse_bits.
+template <class DU>
+hn::Vec<DU> vector_reverse_bits(DU du, hn::Vec<DU> x) {
+  const auto m1 = hn::Set(du, 0x55555555u), m2 = hn::Set(du, 0x33333333u), m4 = hn::Set(du, 0x0f0f0f0fu),
+             m8 = hn::Set(du, 0x00ff00ffu);
+  x = hn::Or(hn::And(hn::ShiftRight<1>(x), m1), hn::ShiftLeft<1>(hn::And(x, m1)));
+  x = hn::Or(hn::And(hn::ShiftRight<2>(x), m2), hn::ShiftLeft<2>(hn::And(x, m2)));
+  x = hn::Or(hn::And(hn::ShiftRight<4>(x), m4), hn::ShiftLeft<4>(hn::And(x, m4)));
+  x = hn::Or(hn::And(hn::ShiftRight<8>(x), m8), hn::ShiftLeft<8>(hn::And(x, m8)));
+  return hn::RotateRight<16>(x);
+}
+
+/// scramble_reversed.
+template <class DU>
+hn::Vec<DU> vector_scramble_reversed(DU du, hn::Vec<DU> x, hn::Vec<DU> seed) {
+  x = hn::Xor(x, hn::Mul(x, hn::Set(du, 0x3d20adeau)));
+  x = hn::Add(x, seed);
+  x = hn::Mul(x, hn::Or(hn::ShiftRight<16>(seed), hn::Set(du, 1u)));
+  x = hn::Xor(x, hn::Mul(x, hn::Set(du, 0x05526c56u)));
+  return hn::Xor(x, hn::Mul(x, hn::Set(du, 0x53a22864u)));
+}
+
+/// pascal_product.
+template <class DU>
+hn::Vec<DU> vector_pascal_product(DU du, hn::Vec<DU> x) {
+  x = hn::Xor(x, hn::ShiftRight<1>(hn::And(x, hn::Set(du, 0xaaaaaaaau))));
+  x = hn::Xor(x, hn::ShiftRight<2>(hn::And(x, hn::Set(du, 0xccccccccu))));
+  x = hn::Xor(x, hn::ShiftRight<4>(hn::And(x, hn::Set(du, 0xf0f0f0f0u))));
+  x = hn::Xor(x, hn::ShiftRight<8>(hn::And(x, hn::Set(du, 0xff00ff00u))));
+  return hn::Xor(x, hn::ShiftRight<16>(hn::And(x, hn::Set(du, 0xffff0000u))));
+}
+
+/// sobol_pair; pixel_seed as sobol_pixel_seed gives it.
+template <class D>
+void vector_sobol_pair(D d, hn::Vec<hn::RebindToUnsigned<D>> pixel_seed,
+                       hn::Vec<hn::RebindToUnsigned<D>> sample, SobolPair pair, hn::Vec<D>& u0,
+                       hn::Vec<D>& u1) {
+  const hn::RebindToUnsigned<D> du;
+  const auto seed = vector_mix_bits(
+      du, hn::Add(pixel_seed, hn::Set(du, static_cast<std::uint32_t>(pair) * kPhiloxKeyStep0)));
+  const auto index =
+      vector_reverse_bits(du, vector_scramble_reversed(du, vector_reverse_bits(du, sample), seed));
+  const auto bits0 =
+      vector_scramble_reversed(du, index, vector_mix_bits(du, hn::Xor(seed, hn::Set(du, 0x55555555u))));
+  const auto bits1 = vector_scramble_reversed(du, vector_pascal_product(du, index),
+                                              vector_mix_bits(du, hn::Xor(seed, hn::Set(du, 0xaaaaaaaau))));
+  u0 = vector_unit_float(d, vector_reverse_bits(du, bits0));
+  u1 = vector_unit_float(d, vector_reverse_bits(du, bits1));
+}
 
 #if HWY_TARGET != HWY_SCALAR
 /// Rng(seed, frame, pixel, sample).

@@ -199,6 +199,8 @@ void CompiledScene::compile_image() {
   view_.seed = render.seed;
   view_.frame = render.frame;
   view_.max_scatter = render.max_scatter;
+  view_.sampler = render.sampler;
+  view_.light_samples = render.light_samples;
   view_.light_sampling = light_sampling(render.light_sampling);
   view_.last_flight_collects =
       transfer_.emits() || (view_.light_sampling != LightSampling::kLight &&

@@ -86,6 +86,15 @@ void visit_fields(V&& visit, Struct<RenderDescription>) {
                 "make finer cells; the picture stays the same.",
          .range = between(0, 1000)},
         &T::lookup_cost);
+  visit({.key = "sampler",
+         .doc = "The first random numbers of a pixel's samples: stratified against each other (sobol), which "
+                "converges faster, or independent (random)."},
+        &T::sampler);
+  visit({.key = "light_samples",
+         .doc =
+             "Shadow rays at the first scattering of a path. More than one pays where several lights matter.",
+         .range = between(1, 64)},
+        &T::light_samples);
   visit({.key = "simd", .doc = "Instruction set.", .words = &kSimdWords}, &T::simd);
   visit({.key = "denoise", .doc = "Denoiser.", .words = &kDenoiseWords}, &T::denoise);
   visit({.key = "light_sampling",

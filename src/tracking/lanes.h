@@ -22,6 +22,7 @@ struct alignas(64) Lanes {
   alignas(64) PerLane<float> origin[3]{};     ///< index space; from kStart on inside the domain
   alignas(64) PerLane<float> direction[3]{};  ///< index units per mm
   alignas(64) PerLane<float> length_mm{};
+  alignas(64) PerLane<float> first_u{};  ///< as TrackRay::first_u
 
   // Results, with kDone.
   alignas(64) PerLane<std::uint32_t> is_real{};  ///< of a free flight: all ones where it collided
@@ -44,6 +45,7 @@ struct alignas(64) Lanes {
       origin[a][lane] = from[a];
       direction[a][lane] = track.ray.direction_index[a];
     }
+    first_u[lane] = track.first_u;
     length_mm[lane] = track.t_far - track.t_near;
     is_shadow[lane] = shadow ? ~0u : 0u;
     for (int i = 0; i < 4; ++i) rng[i][lane] = stream.state()[i];

@@ -33,7 +33,7 @@ Collision sample_free_flight(const Medium& medium, const TrackRay& ray, Rng& rng
 float estimate_transmittance(const Medium& medium, const TrackRay& ray, Rng& rng,
                              TrackingCounters& counters) noexcept;
 
-constexpr float kRouletteTransmittance = 1e-3f;
+constexpr float kRouletteTransmittance = 0.1f;
 
 /// exp(1)-distributed optical depth from a multiple u of 2^-24 in [0,1).
 inline float sample_optical_depth(float u) noexcept { return negative_log(1.0f - u); }

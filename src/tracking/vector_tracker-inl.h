@@ -35,7 +35,7 @@ class LaneTracker {
   void run() {
     // Crossings go on until this many of a vector's lanes wait for a look-up: look-ups cost the same for one.
     constexpr std::size_t kLookUps = (5 * kN + 7) / 8;
-    constexpr std::size_t kDoneLanes = 4;
+    constexpr std::size_t kDoneLanes = 8;
     constexpr std::size_t kVectors = Lanes::kCount / kN;
     for (std::size_t i = 0; i < kVectors; ++i) begin(i * kN);
     for (;;) {
@@ -133,7 +133,10 @@ class LaneTracker {
       store_where(hn::RebindMask(kI, where_f), cell, lanes_.next_cell[a], v);
     }
     store_where(where_f, length, lanes_.length_mm, v);
-    store_where(where_f, optical_depth(draw(where, v)), lanes_.tau, v);
+    const F given_u = load(lanes_.first_u, v);
+    const MaskF draws = hn::And(where_f, hn::Lt(given_u, hn::Zero(kF)));
+    const F u = hn::IfThenElse(draws, draw(to_u(draws), v), given_u);
+    store_where(where_f, optical_depth(u), lanes_.tau, v);
     for (auto* zero : {&lanes_.mu_maj, &lanes_.run_mm, &lanes_.exit_mm, &lanes_.entered_mm})
       store_where(where_f, hn::Zero(kF), *zero, v);
     store_where(where_f, hn::Set(kF, 1.0f), lanes_.transmittance, v);

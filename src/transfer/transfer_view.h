@@ -33,7 +33,8 @@ struct Coefficients {
 struct TransferView {
   const TransferPiece* pieces = nullptr;
   std::int32_t piece_count = 0;
-  const ExtinctionPiece* extinction = nullptr;  ///< of every piece, and one that starts at NaN, which nothing reaches
+  const ExtinctionPiece* extinction =
+      nullptr;  ///< of every piece, and one that starts at NaN, which nothing reaches
   /// Per bucket, a piece in force at its lower end or before; ~piece where more than one begins behind that.
   const std::int32_t* bucket_piece = nullptr;
   const float* bucket_split = nullptr;  ///< per bucket, where the next piece starts; NaN after the last
@@ -73,8 +74,7 @@ inline Coefficients classify(const TransferView& tf, float value) noexcept {
   const float offset = value - piece.anchor;
   const float mu_t = piece.mu_t + piece.mu_t_slope * offset;
   if (!(mu_t > 0)) return {};
-  return {mu_t,
-          min(max(piece.albedo + piece.albedo_slope * offset, Vec3f(0)), Vec3f(1)),
+  return {mu_t, min(max(piece.albedo + piece.albedo_slope * offset, Vec3f(0)), Vec3f(1)),
           max(piece.emission + piece.emission_slope * offset, Vec3f(0))};
 }
 

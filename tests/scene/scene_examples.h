@@ -42,6 +42,8 @@ inline SceneDescription full_scene() {
   s.render.accelerator = "macrocell";
   s.render.macrocell_voxels = 8;
   s.render.lookup_cost = 4;
+  s.render.sampler = Sampler::kRandom;
+  s.render.light_samples = 2;
   s.render.simd = "scalar";
   s.render.light_sampling = "light";
   return s;
