@@ -173,13 +173,13 @@ CameraPath::Wait CameraPath::scatter(const SceneView& scene, TraceCounters& coun
   direction_world_ = sample.wi;
   direction_pdf_ = sample.pdf;
   hit_samples_ = static_cast<float>(light_samples(scene));
-  if (!(max_component(throughput_) > 0) || !survives(scene)) return end();
+  if (!(max_component(throughput_) > 0) || !survives()) return end();
   ++depth_;
   return fly(scene, counters);
 }
 
-/// Russian roulette for paths without a scattering limit.
-bool CameraPath::survives(const SceneView& scene) noexcept {
+/// Russian roulette, whatever the scattering limit.
+bool CameraPath::survives() noexcept {
   if (depth_ < kRouletteDepth) return true;
   const float probability = std::min(1.0f - kEnding / static_cast<float>(depth_), max_component(throughput_));
   if (rng_.next() >= probability) return false;

@@ -45,7 +45,7 @@ class CameraPath {
   Wait next_light_sample(const SceneView& scene, TraceCounters& counters) noexcept;
   int light_samples(const SceneView& scene) const noexcept { return depth_ == 0 ? scene.light_samples : 1; }
   Wait scatter(const SceneView& scene, TraceCounters& counters) noexcept;
-  bool survives(const SceneView& scene) noexcept;
+  bool survives() noexcept;
 
   Rng rng_;
   TrackRay ray_;

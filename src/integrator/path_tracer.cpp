@@ -1,5 +1,6 @@
 #include "integrator/path_tracer.h"
 
+#include <algorithm>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -7,52 +8,36 @@
 #include "integrator/camera_path.h"
 
 namespace voxlume {
-
-PixelSample trace_camera_sample(const SceneView& scene, int x, int y, std::uint32_t sample,
-                                TraceCounters& counters) noexcept {
-  using Wait = CameraPath::Wait;
-  CameraPath path;
-  TrackingCounters tracking;
-  Wait wait = path.begin(scene, make_primary_ray(scene, x, y, sample), counters);
-  while (wait != Wait::kNothing) {
-    wait = wait == Wait::kFlight
-               ? path.end_flight(scene, sample_free_flight(scene.medium, path.ray(), path.rng(), tracking),
-                                 counters)
-               : path.end_shadow_ray(
-                     scene, estimate_transmittance(scene.medium, path.ray(), path.rng(), tracking), counters);
-  }
-  counters.tracking_steps += tracking.steps;
-  counters.majorant_violations += tracking.majorant_violations;
-  return path.sample();
-}
-
 namespace {
 
 /// Samples of a tile that are held back until they can be added in order.
 constexpr int kHeldSamples = 4096;
 
-/// Follows a lane group's worth of paths at once through some samples of every pixel of a tile.
-class TileTracer {
+/// The pixels of a tile, row by row.
+std::pair<int, int> pixel_at(const TileRect& tile, int index) {
+  const int width = tile.x1 - tile.x0;
+  return {tile.x0 + index % width, tile.y0 + index / width};
+}
+
+/// Follows many paths at once through some samples of every pixel of a tile: one in each lane of the vector
+/// tracker, and the next as soon as one ends. What happens at scatterings is scalar code.
+class LaneTracer {
  public:
-  TileTracer(const SceneView& scene, const TileRect& tile, int sample_begin, int sample_end,
-             TraceCounters& counters)
+  LaneTracer(const SceneView& scene, const TileRect& tile, int sample_begin, int sample_end,
+             std::span<PixelSample> results, TraceCounters& counters)
       : scene_(scene),
         tile_(tile),
         sample_begin_(sample_begin),
         samples_per_pixel_(sample_end - sample_begin),
-        counters_(counters),
-        results_(static_cast<std::size_t>(tile.pixel_count()) * samples_per_pixel_) {}
+        results_(results),
+        counters_(counters) {}
 
-  void trace(Film& film) {
+  void trace() {
     for (int lane = 0; lane < Lanes::kCount; ++lane) start_next(lane);
     while (busy_lanes_ > 0) {
       track_lanes_(scene_.medium, lanes_);
       for (int lane = 0; lane < Lanes::kCount; ++lane)
         if (lanes_.state[lane] == Lanes::kDone) resume(lane);
-    }
-    for (std::size_t job = 0; job < results_.size(); ++job) {
-      const auto [x, y] = pixel_of(job);
-      film.add(x, y, results_[job]);
     }
   }
 
@@ -61,8 +46,7 @@ class TileTracer {
 
   /// Samples of one pixel follow each other: neighbouring lanes take like ways.
   std::pair<int, int> pixel_of(std::size_t job) const {
-    const int pixel = static_cast<int>(job) / samples_per_pixel_, width = tile_.x1 - tile_.x0;
-    return {tile_.x0 + pixel % width, tile_.y0 + pixel / width};
+    return pixel_at(tile_, static_cast<int>(job) / samples_per_pixel_);
   }
 
   std::uint32_t sample_of(std::size_t job) const {
@@ -125,11 +109,11 @@ class TileTracer {
   const SceneView& scene_;
   const TileRect tile_;
   const int sample_begin_, samples_per_pixel_;
+  const std::span<PixelSample> results_;
   TraceCounters& counters_;
   const VectorTracker track_lanes_ = vector_tracker(scene_.simd, scene_.medium);
   const FillPrimaryRays fill_ = vector_primary_rays(scene_.simd, scene_.camera);
   PrimaryRayBatch batch_;
-  std::vector<PixelSample> results_;
   std::size_t next_job_ = 0;
   int busy_lanes_ = 0;
   Lanes lanes_;
@@ -139,18 +123,50 @@ class TileTracer {
 
 }  // namespace
 
+PixelSample trace_camera_sample(const SceneView& scene, int x, int y, std::uint32_t sample,
+                                TraceCounters& counters) noexcept {
+  using Wait = CameraPath::Wait;
+  CameraPath path;
+  TrackingCounters tracking;
+  Wait wait = path.begin(scene, make_primary_ray(scene, x, y, sample), counters);
+  while (wait != Wait::kNothing) {
+    wait = wait == Wait::kFlight
+               ? path.end_flight(scene, sample_free_flight(scene.medium, path.ray(), path.rng(), tracking),
+                                 counters)
+               : path.end_shadow_ray(
+                     scene, estimate_transmittance(scene.medium, path.ray(), path.rng(), tracking), counters);
+  }
+  counters.tracking_steps += tracking.steps;
+  counters.majorant_violations += tracking.majorant_violations;
+  return path.sample();
+}
+
+void trace_tile(const SceneView& scene, const TileRect& tile, int sample_begin, int sample_end,
+                std::span<PixelSample> samples, TraceCounters& counters) {
+  if (scene.simd != SimdTarget::kScalar)
+    return LaneTracer(scene, tile, sample_begin, sample_end, samples, counters).trace();
+  std::size_t next = 0;
+  for (int pixel = 0; pixel < tile.pixel_count(); ++pixel) {
+    const auto [x, y] = pixel_at(tile, pixel);
+    for (int sample = sample_begin; sample < sample_end; ++sample)
+      samples[next++] = trace_camera_sample(scene, x, y, static_cast<std::uint32_t>(sample), counters);
+  }
+}
+
 void render_tile(const SceneView& scene, const TileRect& tile, int sample_begin, int sample_end, Film& film,
                  TraceCounters& counters) {
-  if (scene.simd != SimdTarget::kScalar) {
-    const int at_once = std::max(1, kHeldSamples / static_cast<int>(tile.pixel_count()));
-    for (int begin = sample_begin; begin < sample_end; begin += at_once)
-      TileTracer(scene, tile, begin, std::min(begin + at_once, sample_end), counters).trace(film);
-    return;
+  const int pixels = static_cast<int>(tile.pixel_count()), at_once = std::max(1, kHeldSamples / pixels);
+  std::vector<PixelSample> samples(static_cast<std::size_t>(pixels) *
+                                   std::max(0, std::min(at_once, sample_end - sample_begin)));
+  for (int begin = sample_begin; begin < sample_end; begin += at_once) {
+    const int end = std::min(begin + at_once, sample_end);
+    const std::span<PixelSample> part(samples.data(), static_cast<std::size_t>(pixels) * (end - begin));
+    trace_tile(scene, tile, begin, end, part, counters);
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      const auto [x, y] = pixel_at(tile, static_cast<int>(i) / (end - begin));
+      film.add(x, y, part[i]);
+    }
   }
-  for (int y = tile.y0; y < tile.y1; ++y)
-    for (int x = tile.x0; x < tile.x1; ++x)
-      for (int sample = sample_begin; sample < sample_end; ++sample)
-        film.add(x, y, trace_camera_sample(scene, x, y, static_cast<std::uint32_t>(sample), counters));
 }
 
 }  // namespace voxlume
