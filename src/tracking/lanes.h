@@ -36,7 +36,7 @@ struct alignas(64) Lanes {
   alignas(64) PerLane<float> inverse[3]{};
   alignas(64) PerLane<float> tau{}, mu_maj{}, run_mm{}, exit_mm{};
   alignas(64) PerLane<std::int32_t> cell[3]{}, next_cell[3]{};
-  alignas(64) PerLane<std::uint32_t> word{};
+  alignas(64) PerLane<std::uint32_t> word{}, next_word{};
 
   /// Puts a ray into a lane.
   void put(int lane, const TrackRay& track, bool shadow, const Rng& stream) noexcept {

@@ -116,6 +116,7 @@ class LaneTracker {
     if (hn::AllFalse(kU, where)) return;
     const MaskF where_f = to_f(where);
     F length = load(lanes_.length_mm, v);
+    I cell[3];
     for (int a = 0; a < 3; ++a) {
       const F lower = hn::Set(kF, hierarchy_.domain.lower[a]),
               upper = hn::Set(kF, hierarchy_.domain.upper[a]);
@@ -127,11 +128,12 @@ class LaneTracker {
       const F inverse =
           hn::IfThenElse(moves, hn::Div(hn::Set(kF, 1.0f), d), hn::Set(kF, 1.0f / kStillDirection));
       length = hn::Min(length, hn::Mul(hn::Sub(hn::IfThenElse(upward, upper, lower), o), inverse));
-      const I cell = hn::Min(hn::Max(cell_of(o), hn::Set(kI, -1)), hn::Set(kI, hierarchy_.count[a]));
+      cell[a] = hn::Min(hn::Max(cell_of(o), hn::Set(kI, -1)), hn::Set(kI, hierarchy_.count[a]));
       store_where(where_f, o, lanes_.origin[a], v);
       store_where(where_f, inverse, lanes_.inverse[a], v);
-      store_where(hn::RebindMask(kI, where_f), cell, lanes_.next_cell[a], v);
+      store_where(to_i(where_f), cell[a], lanes_.next_cell[a], v);
     }
+    fetch_next_word(where_f, cell, v);
     store_where(where_f, length, lanes_.length_mm, v);
     const F given_u = load(lanes_.first_u, v);
     const MaskF draws = hn::And(where_f, hn::Lt(given_u, hn::Zero(kF)));
@@ -141,6 +143,15 @@ class LaneTracker {
       store_where(where_f, hn::Zero(kF), *zero, v);
     store_where(where_f, hn::Set(kF, 1.0f), lanes_.transmittance, v);
     set_state(where, Lanes::kCross, v);
+  }
+
+  /// Fetches the words of the next cells well before they are needed.
+  void fetch_next_word(MaskF where, const I (&cell)[3], std::size_t v) {
+    const I at = hn::Add(hn::Add(hn::Mul(cell[2], hn::Set(kI, hierarchy_.stride_k)),
+                                 hn::Mul(cell[1], hn::Set(kI, hierarchy_.stride_j))),
+                         cell[0]);
+    const U word = hn::GatherIndex(kU, hierarchy_.words, hn::IfThenElseZero(to_i(where), at));
+    store_where(to_u(where), word, lanes_.next_word, v);
   }
 
   /// Leaves the block that a lane is in and enters the next: HierarchyWalk::next.
@@ -154,13 +165,8 @@ class LaneTracker {
     const F start = load(lanes_.exit_mm, v), length = load(lanes_.length_mm, v);
     const MaskF ends = hn::Not(hn::Lt(start, length));
 
-    I cell[3] = {load(lanes_.next_cell[0], v), load(lanes_.next_cell[1], v), load(lanes_.next_cell[2], v)};
-    const I at = hn::Add(hn::Add(hn::Mul(cell[2], hn::Set(kI, hierarchy_.stride_k)),
-                                 hn::Mul(cell[1], hn::Set(kI, hierarchy_.stride_j))),
-                         cell[0]);
-    // Lanes that are not crossing read where they stand: their next cell is in the table too.
-    const U word = hn::GatherIndex(kU, hierarchy_.words,
-                                   hn::IfThenElseZero(hn::RebindMask(kI, hn::AndNot(ends, where_f)), at));
+    const I cell[3] = {load(lanes_.next_cell[0], v), load(lanes_.next_cell[1], v), load(lanes_.next_cell[2], v)};
+    const U word = load(lanes_.next_word, v);
     const U level = hn::And(word, hn::Set(kU, kLevelMask));
     const F mu_maj = hn::BitCast(kF, hn::AndNot(hn::Set(kU, kLevelMask), word));
     const I size = hn::BitCast(kI, hn::Shl(hn::Set(kU, 1), level)), mask = hn::Neg(size);
@@ -184,13 +190,16 @@ class LaneTracker {
     const F exit = hn::Max(start, hn::Min(nearest, length));
     const F run = hn::Sub(exit, start);
     const I one = hn::Set(kI, 1);
+    I next[3];
     for (int a = 0; a < 3; ++a) {
       const F p = hn::Add(load(lanes_.origin[a], v), hn::Mul(load(lanes_.direction[a], v), exit));
       const I inside = hn::Min(hn::Max(cell_of(p), first[a]), hn::Sub(hn::Add(first[a], size), one));
       const I beyond = hn::IfThenElse(to_i(upward[a]), hn::Add(first[a], size), hn::Sub(first[a], one));
-      store_where(to_i(where_f), hn::IfThenElse(to_i(axis[a]), beyond, inside), lanes_.next_cell[a], v);
+      next[a] = hn::IfThenElse(to_i(axis[a]), beyond, inside);
+      store_where(to_i(where_f), next[a], lanes_.next_cell[a], v);
       store_where(to_i(where_f), first[a], lanes_.cell[a], v);
     }
+    fetch_next_word(hn::And(where_f, hn::Lt(exit, length)), next, v);
     const F entered = hn::Div(tau, mu_maj);
     const MaskF collides = hn::AndNot(ends, hn::Lt(entered, run));
     store_where(where_f, tau, lanes_.tau, v);
