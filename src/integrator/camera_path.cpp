@@ -16,6 +16,12 @@ constexpr int kRouletteDepth = 4;
 /// kEnding < 1/2, keep its variance finite, where any constant probability below 1 does not.
 constexpr float kEnding = 0.25f;
 
+/// After the last scattering a direction only adds to what the light samples found, and they find most: to
+/// follow it every fourth time takes 0.8 to 0.9 of the time to the same error. Lights in a mirror are found
+/// by directions alone.
+constexpr float kLastFlightShare = 0.25f;
+constexpr float kGlossyAlpha = 0.1f;
+
 /// Veach's power heuristic (beta = 2) for a technique of density `pdf` beside one of density `other`.
 float power_heuristic(float pdf, float other) noexcept {
   const float ratio = other / pdf;
@@ -146,7 +152,7 @@ CameraPath::Wait CameraPath::next_light_sample(const SceneView& scene, TraceCoun
     const float pdf = light.pdf * count;
     const float weight = light.delta || scene.light_sampling == LightSampling::kLight
                              ? 1.0f
-                             : power_heuristic(pdf, scattered.pdf);
+                             : power_heuristic(pdf, scattered.pdf * flight_share(scene));
     unshadowed_ = throughput_ * scattered.value * light.radiance * (weight / pdf);
     ray_ = visible_part(scene, p_world_, light.wi, light.distance_mm, !scene.clip_blocks_light);
     if (enters()) return Wait::kTransmittance;
@@ -161,18 +167,29 @@ CameraPath::Wait CameraPath::end_shadow_ray(const SceneView& scene, float transm
   return next_light_sample(scene, counters);
 }
 
+/// The probability of following the direction that is drawn at the present scattering.
+float CameraPath::flight_share(const SceneView& scene) const noexcept {
+  const bool last = scene.max_scatter > 0 && depth_ + 1 == scene.max_scatter;
+  const bool glossy = choice_.specular > 0 && point_.alpha < kGlossyAlpha;
+  return last && !glossy && scene.light_sampling == LightSampling::kMis ? kLastFlightShare : 1.0f;
+}
+
 /// Turns the path at a scattering, unless it is absorbed or nothing can come of it.
 CameraPath::Wait CameraPath::scatter(const SceneView& scene, TraceCounters& counters) noexcept {
   if (scene.max_scatter > 0 && depth_ + 1 == scene.max_scatter && !scene.last_flight_collects) return end();
+  // After the last scattering a direction only adds to what the light samples found; with less than certainty
+  // it is one technique of the heuristic that takes `share` samples.
+  const float share = flight_share(scene);
+  if (share < 1 && rng_.next() >= share) return end();
   const float u_lobe = rng_.next();
   const auto [u0, u1] = draw_pair(scene, SobolPair::kFirstDirection);
   const ScatterSample sample = sample_scatter(point_, choice_, -direction_world_, u_lobe, u0, u1);
   if (!(sample.pdf > 0)) return end();
-  throughput_ *= sample.value / sample.pdf;
+  throughput_ *= sample.value / (sample.pdf * share);
   origin_world_ = p_world_;
   direction_world_ = sample.wi;
   direction_pdf_ = sample.pdf;
-  hit_samples_ = static_cast<float>(light_samples(scene));
+  hit_samples_ = static_cast<float>(light_samples(scene)) / share;
   if (!(max_component(throughput_) > 0) || !survives()) return end();
   ++depth_;
   return fly(scene, counters);

@@ -44,6 +44,7 @@ class CameraPath {
   Wait sample_direct_light(const SceneView& scene, TraceCounters& counters) noexcept;
   Wait next_light_sample(const SceneView& scene, TraceCounters& counters) noexcept;
   int light_samples(const SceneView& scene) const noexcept { return depth_ == 0 ? scene.light_samples : 1; }
+  float flight_share(const SceneView& scene) const noexcept;
   Wait scatter(const SceneView& scene, TraceCounters& counters) noexcept;
   bool survives() noexcept;
 
@@ -61,8 +62,9 @@ class CameraPath {
   Vec3f p_world_;
   float u_pick_ = 0;
   int light_samples_left_ = 0;
-  float hit_samples_ = 1;  ///< light samples taken where the present direction was drawn
-  Vec3f unshadowed_;       ///< radiance that the shadow ray's transmittance scales
+  /// Light samples taken where the present direction was drawn, over the probability of following that.
+  float hit_samples_ = 1;
+  Vec3f unshadowed_;  ///< radiance that the shadow ray's transmittance scales
   Vec3f radiance_;
   PixelSample out_;
 };

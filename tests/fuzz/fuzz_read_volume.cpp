@@ -1,8 +1,8 @@
 // libFuzzer target of the volume readers. The first byte of an input chooses the extension, the rest is the
 // file. Reading happens in this process, not in the usual child, so that a crash of a reader is a crash of
-// the fuzzer. GDCM, HDF5 and OpenVDB, which alone parse their formats, stop on damaged files by failed
-// assertions; that is what the child is for, and tests/volume_io/damage_test.cpp tests. Here are the formats
-// that our own code parses.
+// the fuzzer. GDCM, HDF5, MetaIO and OpenVDB, which alone parse their formats, stop on damaged files by
+// failed checks of their own; that is what the child is for, and tests/volume_io/damage_test.cpp tests. Here
+// are the formats that our own code parses.
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -17,7 +17,7 @@
 
 namespace {
 
-constexpr const char* kExtensions[] = {".nrrd", ".nhdr", ".mha", ".mhd", ".nii", ".nii.gz", ".vtk", ".tif"};
+constexpr const char* kExtensions[] = {".nrrd", ".nhdr", ".nii", ".nii.gz", ".vtk", ".tif"};
 
 const std::filesystem::path& folder() {
   static const std::filesystem::path path = [] {
