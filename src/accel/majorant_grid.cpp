@@ -17,10 +17,9 @@ void MajorantGrid::update(const TransferFunction& transfer) {
   constexpr std::int64_t kRun = 4096;
   const auto count = static_cast<std::int64_t>(mu_maj_.size());
   parallel_for((count + kRun - 1) / kRun, 1, [&](std::int64_t run) {
-    for (std::int64_t i = run * kRun; i < std::min(count, (run + 1) * kRun); ++i) {
-      const ValueRange range = ranges_.ranges[i];
-      mu_maj_[i] = range.empty() ? 0.0f : kSafety * transfer.max_mu_t(range.lower, range.upper);
-    }
+    const std::int64_t begin = run * kRun;
+    transfer.range_maximum().find(&ranges_.ranges[begin], std::min(kRun, count - begin), kSafety,
+                                  &mu_maj_[begin]);
   });
 }
 
