@@ -2,13 +2,12 @@
 
 #include <limits>
 
+#include "accel/majorant_grid.h"
 #include "base/parallel.h"
 
 namespace voxlume {
 namespace {
 
-// Covers what the look-up's own rounding can add to the supremum.
-constexpr float kSafety = 1 + 1e-4f;
 constexpr std::int32_t kSide = BlockCube::kSide;
 static_assert(kSide == kCubeSide);
 
@@ -93,7 +92,7 @@ void MajorantHierarchy::join_cells(std::int64_t at) {
     return;
   }
   BlockCube blocks;
-  maximum_.find(&ranges_.ranges[at * kCubeCells], kCubeCells, kSafety, blocks.mu_maj.data());
+  maximum_.find(&ranges_.ranges[at * kCubeCells], kCubeCells, kMajorantSafety, blocks.mu_maj.data());
   const JoinRule cells{costs_.lookup, chord_mm_};
   for (int i = 0; i < BlockCube::kParts; ++i) blocks.cost[i] = cells.cost(blocks.mu_maj[i]);
   blocks.join(costs_.lookup, chord_mm_, 0, costs_.max_level);

@@ -25,8 +25,8 @@ class MajorantHierarchy {
   MajorantHierarchy(const GridView& grid, int cell_voxels, HierarchyCosts costs = {});
 
   /// Brings every majorant up to date: of a finest cell the exact supremum of mu_t over its value range times
-  /// 1 + 1e-4, of a block the largest of its cells. Only cubes of cells with values that the function changes
-  /// since the last update are computed; the result is the same as if all were.
+  /// kMajorantSafety, of a block the largest of its cells. Only cubes of cells with values that the function
+  /// changes since the last update are computed; the result is the same as if all were.
   void update(const TransferFunction& transfer);
 
   HierarchyView view() const;

@@ -28,15 +28,26 @@ AcceleratorChoice accelerator_choice(const RenderDescription& render, const Grid
   AcceleratorChoice choice;
   choice.cell_voxels = render.macrocell_voxels;
   choice.costs.lookup = static_cast<float>(render.lookup_cost);
+  choice.thresholds = {static_cast<float>(render.hierarchy_thresholds[0]),
+                       static_cast<float>(render.hierarchy_thresholds[1])};
   if (render.accelerator == "none") {
     choice.kind = AcceleratorKind::kMacrocell;
     choice.cell_voxels = std::max({grid.size[0], grid.size[1], grid.size[2], 1});
   } else if (render.accelerator == "macrocell") {
     choice.kind = AcceleratorKind::kMacrocell;
+  } else if (render.accelerator == "octree") {
+    choice.kind = AcceleratorKind::kSkippingOctree;
+  } else if (render.accelerator == "residency") {
+    choice.kind = AcceleratorKind::kResidency;
   } else if (render.accelerator != "auto" && render.accelerator != "hierarchy") {
-    throw Error(
-        ErrorCode::kUnsupported, "/render/accelerator",
-        "\"" + render.accelerator + "\" is not built yet; available: auto, none, macrocell, hierarchy");
+    throw Error(ErrorCode::kBadParameter, "/render/accelerator",
+                "unknown \"" + render.accelerator +
+                    "\"; expected auto, none, macrocell, octree, hierarchy or residency");
+  } else if (render.hierarchy_rule == "thresholds") {
+    choice.kind = AcceleratorKind::kThresholdOctree;
+  } else if (render.hierarchy_rule != "cost") {
+    throw Error(ErrorCode::kBadParameter, "/render/hierarchy_rule",
+                "unknown \"" + render.hierarchy_rule + "\"; expected cost or thresholds");
   }
   return choice;
 }
