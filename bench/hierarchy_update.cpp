@@ -1,8 +1,7 @@
 // Measures how fast a new transfer function reaches the majorants: builds a hierarchy over the head CT,
 // stretched to cubes of several sizes, and times whole and partial updates. Prints a markdown table. Usage:
-// voxlume_bench_update VOLUME [EDGE...]
+// voxlume_hierarchy_update VOLUME [EDGE...]
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <vector>
@@ -11,18 +10,12 @@
 #include "base/parallel.h"
 #include "grid/sample.h"
 #include "grid/volume_statistics.h"
-#include "scene/open_volume.h"
-#include "scene/resolve.h"
+#include "measure.h"
 #include "voxlume/error.h"
 
 namespace {
 
 using namespace voxlume;
-
-double now_ms() {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
 
 /// The volume stretched to edge^3 voxels.
 Volume stretched(const Volume& from, std::int64_t edge) {
@@ -48,11 +41,6 @@ Volume stretched(const Volume& from, std::int64_t edge) {
     out.spacing_mm[a] = from.spacing_mm[a] * static_cast<double>(from.size[a]) / static_cast<double>(edge);
   out.voxels = std::shared_ptr<const void>(voxels, voxels->data());
   return out;
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
 }
 
 struct Edit {
@@ -101,7 +89,7 @@ void measure(const Volume& volume, int cell_voxels) {
 
 int main(int argc, char** argv) {
   if (argc < 2) {
-    std::fprintf(stderr, "usage: voxlume_bench_update VOLUME [EDGE...]\n");
+    std::fprintf(stderr, "usage: voxlume_hierarchy_update VOLUME [EDGE...]\n");
     return 2;
   }
   try {
@@ -120,7 +108,7 @@ int main(int argc, char** argv) {
       if (chosen > 2 && edge <= 512) measure(volume, chosen / 2);
     }
   } catch (const Error& error) {
-    std::fprintf(stderr, "voxlume_bench_update: %s\n", error.what());
+    std::fprintf(stderr, "voxlume_hierarchy_update: %s\n", error.what());
     return 1;
   }
   return 0;
