@@ -9,23 +9,46 @@ namespace {
 
 constexpr ValueRange kNoValues{std::numeric_limits<float>::max(), std::numeric_limits<float>::lowest()};
 
+ValueRange joined(ValueRange range, ValueRange other) {
+  // Written so that a NaN changes neither bound: where it enters the interpolation, nothing is visible.
+  return {other.lower < range.lower ? other.lower : range.lower,
+          other.upper > range.upper ? other.upper : range.upper};
+}
+
+/// The ranges of `count` cells in a row from cell `first` on.
 template <class T>
-ValueRange range_of_block(const T* voxels, const GridView& grid, const std::int32_t (&first)[3], int extent) {
-  std::int32_t last[3];
-  for (int a = 0; a < 3; ++a) last[a] = std::min(first[a] + extent, grid.size[a] - 1);
-  auto [lower, upper] = kNoValues;
-  for (std::int32_t k = first[2]; k <= last[2]; ++k) {
-    for (std::int32_t j = first[1]; j <= last[1]; ++j) {
-      const T* row = voxels + k * grid.stride_k + j * grid.stride_j;
-      for (std::int32_t i = first[0]; i <= last[0]; ++i) {
-        const float v = static_cast<float>(row[i]);
-        // Written so that a NaN changes neither bound: where it enters the interpolation, nothing is visible.
-        lower = v < lower ? v : lower;
-        upper = v > upper ? v : upper;
+void find_row(const T* voxels, const GridView& grid, const std::int32_t (&first)[3], int cell_voxels,
+              std::int32_t count, ValueRange* out) {
+  constexpr std::int32_t kBlock = 256;  // voxels along i that are done at once
+  std::int32_t begin[3], end[3];
+  for (int a = 0; a < 3; ++a) {
+    begin[a] = first[a] * cell_voxels;
+    end[a] = std::min(begin[a] + cell_voxels, grid.size[a] - 1) + 1;
+  }
+  end[0] = std::min(begin[0] + count * cell_voxels + 1, grid.size[0]);
+  std::fill_n(out, count, kNoValues);
+  float lower[kBlock], upper[kBlock];
+  for (std::int32_t block = begin[0]; block < end[0]; block += kBlock) {
+    const std::int32_t width = std::min(kBlock, end[0] - block);
+    std::fill_n(lower, width, kNoValues.lower);
+    std::fill_n(upper, width, kNoValues.upper);
+    for (std::int32_t k = begin[2]; k < end[2]; ++k)
+      for (std::int32_t j = begin[1]; j < end[1]; ++j) {
+        const T* row = voxels + k * grid.stride_k + j * grid.stride_j + block;
+        for (std::int32_t x = 0; x < width; ++x) {
+          const float v = static_cast<float>(row[x]);
+          lower[x] = v < lower[x] ? v : lower[x];
+          upper[x] = v > upper[x] ? v : upper[x];
+        }
       }
+    for (std::int32_t x = 0; x < width; ++x) {
+      // A voxel between two cells belongs to both.
+      const std::int32_t at = block + x - begin[0], cell = at / cell_voxels;
+      const ValueRange column{lower[x], upper[x]};
+      if (cell < count) out[cell] = joined(out[cell], column);
+      if (cell > 0 && cell * cell_voxels == at) out[cell - 1] = joined(out[cell - 1], column);
     }
   }
-  return {lower, upper};
 }
 
 // Three nested linear interpolations of floats, each rounding twice.
@@ -36,14 +59,13 @@ ValueRange widened(ValueRange range) {
   return {range.lower - slack, range.upper + slack};
 }
 
-/// Calls visit(i, j, k, place) for every cell of the grid, in parallel.
+/// Calls visit(i, j, k, count, place) for runs of cells along i that cover the grid, in parallel.
 template <class Visit>
-void each_cell(const std::int32_t (&cells)[3], CellOrder order, Visit&& visit) {
+void each_run(const std::int32_t (&cells)[3], CellOrder order, Visit&& visit) {
   if (order == CellOrder::kRows) {
     parallel_for(std::int64_t{cells[1]} * cells[2], 4, [&](std::int64_t row) {
-      for (std::int32_t i = 0; i < cells[0]; ++i)
-        visit(i, static_cast<std::int32_t>(row % cells[1]), static_cast<std::int32_t>(row / cells[1]),
-              row * cells[0] + i);
+      visit(0, static_cast<std::int32_t>(row % cells[1]), static_cast<std::int32_t>(row / cells[1]), cells[0],
+            row * cells[0]);
     });
     return;
   }
@@ -55,8 +77,8 @@ void each_cell(const std::int32_t (&cells)[3], CellOrder order, Visit&& visit) {
     const auto k = static_cast<std::int32_t>(cube / cubes[0] / cubes[1]) * kCubeSide;
     for (std::int32_t z = 0; z < std::min(kCubeSide, cells[2] - k); ++z)
       for (std::int32_t y = 0; y < std::min(kCubeSide, cells[1] - j); ++y)
-        for (std::int32_t x = 0; x < std::min(kCubeSide, cells[0] - i); ++x)
-          visit(i + x, j + y, k + z, cube * kCubeCells + (z * kCubeSide + y) * kCubeSide + x);
+        visit(i, j + y, k + z, std::min(kCubeSide, cells[0] - i),
+              cube * kCubeCells + (z * kCubeSide + y) * kCubeSide);
   });
 }
 
@@ -76,10 +98,12 @@ ValueRangeGrid build_value_ranges(const GridView& grid, int cell_voxels, CellOrd
   for (int a = 0; a < 3; ++a) out.cells[a] = std::max(1, (grid.size[a] - 1 + cell_voxels - 1) / cell_voxels);
   out.ranges.assign(static_cast<std::size_t>(cell_count(out.cells, order)), kNoValues);
   with_voxels(grid.type, grid.voxels, [&](const auto* voxels) {
-    each_cell(out.cells, order, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::int64_t place) {
-      const std::int32_t first[3] = {i * cell_voxels, j * cell_voxels, k * cell_voxels};
-      out.ranges[place] = widened(range_of_block(voxels, grid, first, cell_voxels));
-    });
+    each_run(out.cells, order,
+             [&](std::int32_t i, std::int32_t j, std::int32_t k, std::int32_t count, std::int64_t place) {
+               ValueRange* run = &out.ranges[place];
+               find_row(voxels, grid, {i, j, k}, cell_voxels, count, run);
+               std::transform(run, run + count, run, widened);
+             });
   });
   return out;
 }
