@@ -8,7 +8,9 @@ namespace voxlume {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr std::int32_t kBuckets = 2048;
+constexpr std::int32_t kBuckets = 4096;
+/// The last piece that a bucket can name; later ones are found from there.
+constexpr std::int32_t kLastTold = 0xffff;
 /// Of a bucket's distance from the first, by which rounding can move its ends.
 constexpr double kBucketSlack = 1e-6;
 
@@ -62,17 +64,19 @@ void RangeMaximum::make_buckets() {
   }
   constexpr double kEndless = std::numeric_limits<float>::max();
   buckets_.resize(static_cast<std::size_t>(count));
+  const double step = width / kBuckets;
   std::int32_t piece = 0;
   for (std::int32_t b = 0; b < count; ++b) {
-    const double lower = bucket_origin_ + b * (width / kBuckets) * (1 - kBucketSlack);
+    const double lower = bucket_origin_ + b * step * (1 - kBucketSlack);
     while (b > 0 && pieces_[piece].end <= lower) ++piece;
-    buckets_[b].piece = piece;
+    buckets_[b] = static_cast<std::uint32_t>(std::min(piece, kLastTold));
   }
+  std::int32_t next_visible = count;
   for (std::int32_t b = count - 1; b >= 0; --b) {
-    const double lower = bucket_origin_ + b * (width / kBuckets) * (1 - kBucketSlack);
-    const double upper = bucket_origin_ + (b + 1) * (width / kBuckets) * (1 + kBucketSlack);
-    const bool seen = visible(b == 0 ? -kEndless : lower, b == count - 1 ? kEndless : upper);
-    buckets_[b].next_visible = seen ? b : b == count - 1 ? count : buckets_[b + 1].next_visible;
+    const double lower = bucket_origin_ + b * step * (1 - kBucketSlack);
+    const double upper = bucket_origin_ + (b + 1) * step * (1 + kBucketSlack);
+    if (visible(b == 0 ? -kEndless : lower, b == count - 1 ? kEndless : upper)) next_visible = b;
+    buckets_[b] |= static_cast<std::uint32_t>(next_visible) << 16;
   }
 }
 

@@ -16,17 +16,13 @@ struct MaximumPiece {
   friend bool operator==(const MaximumPiece&, const MaximumPiece&) = default;
 };
 
-/// A value's bucket tells about where in the function it is.
-struct MaximumBucket {
-  std::int32_t piece;         ///< no value of the bucket is in an earlier one
-  std::int32_t next_visible;  ///< the first bucket from this one on with mu_t > 0 somewhere
-};
-
 /// The tables of RangeMaximum, for vector code.
 struct RangeMaximumView {
   const MaximumPiece* pieces = nullptr;
   std::int32_t piece_count = 0;
-  const MaximumBucket* buckets = nullptr;
+  /// In the lower 16 bits a piece that no value of the bucket is before, in the upper ones the first bucket
+  /// from this one on with mu_t > 0 somewhere.
+  const std::uint32_t* buckets = nullptr;
   std::int32_t bucket_count = 0;
   float bucket_origin = 0, buckets_per_unit = 0;
   /// knot_max[level * piece_count + p]: the supremum of mu_t at the starts of pieces p .. p + 2^level - 1,
@@ -59,7 +55,7 @@ class RangeMaximum {
   float piece_start(std::int32_t piece) const noexcept;
 
   std::vector<MaximumPiece> pieces_;
-  std::vector<MaximumBucket> buckets_;
+  std::vector<std::uint32_t> buckets_;
   float bucket_origin_ = 0, buckets_per_unit_ = 0;
   std::vector<float> knot_max_;
 };

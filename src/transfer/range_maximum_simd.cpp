@@ -5,6 +5,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include <cstring>
+
 #include "transfer/range_maximum.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -31,12 +33,16 @@ class VectorMaximum {
 
   HWY_INLINE F operator()(F lower, F upper) const {
     const I bucket = bucket_of(lower), upper_bucket = bucket_of(upper);
-    const I next_visible = hn::GatherIndex(di_, buckets_ + 1, hn::Add(bucket, bucket));
+    const I entry = hn::GatherIndex(di_, buckets_, bucket);
+    const I next_visible = hn::BitCast(di_, hn::ShiftRight<16>(hn::BitCast(du_, entry)));
     const auto maybe =
         hn::And(hn::RebindMask(d_, hn::Not(hn::Gt(next_visible, upper_bucket))), hn::Le(lower, upper));
     if (hn::AllFalse(d_, maybe)) return hn::Zero(d_);
-    const I first = piece_of(lower, bucket), last = piece_of(upper, upper_bucket);
-    F most = hn::Max(value_at(first, lower), value_at(last, upper));
+    const I low_half = hn::Set(di_, 0xffff);
+    I first = hn::And(entry, low_half);
+    I last = hn::And(hn::GatherIndex(di_, buckets_, upper_bucket), low_half);
+    F most = value_at(lower, first);
+    most = hn::Max(most, value_at(upper, last));
     const I crossed = hn::Sub(last, first);
     const auto crossing = hn::RebindMask(d_, hn::Gt(crossed, hn::Zero(di_)));
     if (!hn::AllFalse(d_, crossing))
@@ -51,23 +57,24 @@ class VectorMaximum {
     return hn::ConvertTo(di_, hn::Min(hn::IfThenElseZero(hn::Gt(at, hn::Zero(d_)), at), last_bucket_));
   }
 
-  HWY_INLINE I piece_of(F value, I bucket) const {
-    I piece = hn::GatherIndex(di_, buckets_, hn::Add(bucket, bucket));
+  /// The piece that a value is in, from its bucket's on, and mu_t there.
+  HWY_INLINE F value_at(F value, I& piece) const {
+    constexpr std::size_t kMostLanes = 16;
+    alignas(64) std::int32_t at[kMostLanes];
+    alignas(64) float table[4 * kMostLanes];
     for (;;) {
-      const F end = hn::GatherIndex(d_, pieces_, hn::ShiftLeft<2>(piece));
+      hn::Store(piece, di_, at);
+      for (std::size_t lane = 0; lane < hn::Lanes(d_); ++lane)
+        std::memcpy(table + 4 * lane, pieces_ + 4 * at[lane], 16);
+      F end, anchor, mu_t, slope;
+      hn::LoadInterleaved4(d_, table, end, anchor, mu_t, slope);
       const auto beyond = hn::Ge(value, end);
-      if (hn::AllFalse(d_, beyond)) return piece;
+      if (hn::AllFalse(d_, beyond)) {
+        const F v = hn::Add(mu_t, hn::Mul(slope, hn::Sub(value, anchor)));
+        return hn::IfThenElseZero(hn::Gt(v, hn::Zero(d_)), v);
+      }
       piece = hn::Sub(piece, hn::BitCast(di_, hn::VecFromMask(d_, beyond)));
     }
-  }
-
-  HWY_INLINE F value_at(I piece, F value) const {
-    const I at = hn::ShiftLeft<2>(piece);
-    const F anchor = hn::GatherIndex(d_, pieces_ + 1, at);
-    const F mu_t = hn::GatherIndex(d_, pieces_ + 2, at);
-    const F slope = hn::GatherIndex(d_, pieces_ + 3, at);
-    const F v = hn::Add(mu_t, hn::Mul(slope, hn::Sub(value, anchor)));
-    return hn::IfThenElseZero(hn::Gt(v, hn::Zero(d_)), v);
   }
 
   /// The greatest value at the knots of pieces first + 1 .. last; any value where there are none.
@@ -87,6 +94,7 @@ class VectorMaximum {
 
   Floats d_;
   Ints di_;
+  hn::RebindToUnsigned<Ints> du_;
   const float* pieces_;
   const std::int32_t* buckets_;
   const float* knot_max_;

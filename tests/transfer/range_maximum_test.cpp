@@ -107,6 +107,34 @@ TEST(RangeMaximum, FewRangesAreFoundToo) {
   });
 }
 
+TEST(RangeMaximum, MorePiecesThanABucketCanName) {
+  std::vector<TransferPiece> pieces(70000);
+  Rng rng(24, 0, 0, 0);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const auto start = static_cast<float>(i);
+    pieces[i] = {
+        i == 0 ? -kInfinity : start, start, i % 100 == 0 ? 100 * rng.next() : rng.next(), 0, {}, {}, {}, {}};
+  }
+  const RangeMaximum maximum(pieces);
+  std::vector<ValueRange> ranges;
+  for (int n = 0; n < 64; ++n) {
+    const float lower = 60000 + 10000 * rng.next();
+    ranges.push_back({lower, lower + 200 * rng.next()});
+  }
+  for_every_target([&] {
+    std::vector<float> found(ranges.size());
+    maximum.find(ranges.data(), static_cast<std::int64_t>(ranges.size()), 1.0f, found.data());
+    for (std::size_t n = 0; n < ranges.size(); ++n) {
+      float greatest = 0;
+      for (auto i = static_cast<std::size_t>(ranges[n].lower);
+           i < pieces.size() && pieces[i].start <= ranges[n].upper; ++i)
+        greatest = std::max(greatest, pieces[i].mu_t);
+      ASSERT_EQ(found[n], greatest);
+      ASSERT_EQ(maximum(ranges[n]), greatest);
+    }
+  });
+}
+
 /// Moves, adds and takes away points as a user who edits a function.
 TransferDescription edited(TransferDescription d, Rng& rng) {
   auto& points = d.points;
