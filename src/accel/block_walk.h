@@ -41,10 +41,10 @@ struct CellGrid {
   float cell_voxels = 1, cells_per_voxel = 1;
   Box3f domain;  ///< index space
 
-  /// The cell that `cell` is or continues; `inside` tells which.
-  void clamp_cell(const std::int32_t (&cell)[3], std::int32_t (&at)[3], bool& inside) const noexcept {
+  /// The cell of the grid that `cell` is or continues. The block around one outside may be taken as large as
+  /// the block of the cell it continues: all that it covers beside the grid continues that block.
+  void clamp_cell(const std::int32_t (&cell)[3], std::int32_t (&at)[3]) const noexcept {
     for (int a = 0; a < 3; ++a) at[a] = std::min(std::max(cell[a], 0), count[a] - 1);
-    inside = at[0] == cell[0] && at[1] == cell[1] && at[2] == cell[2];
   }
 };
 

@@ -30,11 +30,10 @@ struct OctreeView : CellGrid {
 struct SkippingOctreeView : OctreeView {
   float find_block(const std::int32_t (&cell)[3], int& level) const noexcept {
     std::int32_t at[3];
-    bool inside;
-    clamp_cell(cell, at, inside);
+    clamp_cell(cell, at);
     level = 0;
     const float mu_maj = node(0, at);
-    if (mu_maj > 0 || !inside) return mu_maj;
+    if (mu_maj > 0) return mu_maj;
     while (level < top_level && !(node(level + 1, at) > 0)) ++level;
     return 0;
   }
@@ -48,12 +47,7 @@ struct ThresholdOctreeView : OctreeView {
 
   float find_block(const std::int32_t (&cell)[3], int& level) const noexcept {
     std::int32_t at[3];
-    bool inside;
-    clamp_cell(cell, at, inside);
-    if (!inside) {
-      level = 0;
-      return node(0, at);
-    }
+    clamp_cell(cell, at);
     float mu_maj = node(level, at);
     // A parent is at least as dense as its children, so that no node is met twice whatever the thresholds.
     for (;;) {

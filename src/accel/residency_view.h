@@ -20,15 +20,14 @@ struct ResidencyView : CellGrid {
 
   float find_block(const std::int32_t (&cell)[3], int& level) const noexcept {
     std::int32_t at[3];
-    bool inside;
-    clamp_cell(cell, at, inside);
-    int l = top_level;
+    clamp_cell(cell, at);
+    level = top_level;
     const ResidencyNode* node = nodes;
     while (node->children != 0) {
-      --l;
-      node = nodes + node->children + ((at[2] >> l & 1) << 2 | (at[1] >> l & 1) << 1 | (at[0] >> l & 1));
+      --level;
+      node = nodes + node->children +
+             ((at[2] >> level & 1) << 2 | (at[1] >> level & 1) << 1 | (at[0] >> level & 1));
     }
-    level = inside ? l : 0;
     return node->mu_maj;
   }
 };

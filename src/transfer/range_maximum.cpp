@@ -135,9 +135,7 @@ ValueRange changed_values(const RangeMaximum& before, const RangeMaximum& after)
            before.piece_start(n_a - tail) != after.piece_start(n_b - tail);
   };
   while (tail < shorter && !tail_differs()) ++tail;
-  const float upper = same_line(a[n_a - tail], b[n_b - tail])
-                          ? std::max(before.piece_start(n_a - tail), after.piece_start(n_b - tail))
-                          : end_or_infinity(a[n_a - tail]);
+  const float upper = end_or_infinity(a[n_a - tail]);
   return {std::min(lower, upper), std::max(lower, upper)};
 }
 

@@ -72,6 +72,14 @@ Volume mixed_volume(Size3 size, double lower, double upper) {
   });
 }
 
+/// Every cube of 8^3 voxels has a few values of its own.
+Volume banded_volume(Size3 size) {
+  return make_volume<std::int16_t>(size, [&](auto i, auto j, auto k) {
+    const auto cube = static_cast<std::uint32_t>(i / 8 + 37 * (j / 8) + 1009 * (k / 8));
+    return static_cast<double>(cube * 2654435761u % 997) + 3 * ((i + j + k) % 2);
+  });
+}
+
 /// The majorants of single cells, and so of every block, from the uniform grid.
 struct FinestMajorants {
   FinestMajorants(const GridView& grid, int cell_voxels, const TransferFunction& function)
@@ -282,25 +290,29 @@ TransferDescription edited(TransferDescription d, Rng& rng) {
 TEST(HierarchyUpdate, OfAPartEqualsOneOfAll) {
   Rng rng(65, 0, 0, 0);
   struct Case {
-    Size3 size;
-    int cell_voxels, max_level;
+    Volume volume;
+    int cell_voxels;
+    HierarchyCosts costs;
   };
+  const auto mixed = [](Size3 size) { return mixed_volume<std::int16_t>(size, 0, 1000); };
   for (const Case& c :
-       {Case{{131, 70, 40}, 1, 6}, Case{{131, 70, 40}, 2, 6}, Case{{66, 66, 66}, 1, 4},
-        Case{{40, 30, 20}, 1, 2}, Case{{1, 1, 1}, 1, 6}, Case{{3, 5, 7}, 1, 6}, Case{{90, 1, 20}, 1, 6}}) {
-    const Volume volume = mixed_volume<std::int16_t>(c.size, 0, 1000);
-    const GridView grid = make_grid_view(volume);
-    const HierarchyCosts costs{2.5f, c.max_level};
-    MajorantHierarchy updated(grid, c.cell_voxels, costs);
+       {Case{mixed({131, 70, 40}), 1, {2.5f, 6}}, Case{mixed({131, 70, 40}), 2, {2.5f, 6}},
+        Case{mixed({66, 66, 66}), 1, {0.1f, 4}}, Case{mixed({40, 30, 20}), 1, {2.5f, 2}},
+        Case{mixed({1, 1, 1}), 1, {2.5f, 6}}, Case{mixed({3, 5, 7}), 1, {2.5f, 6}},
+        Case{mixed({90, 1, 20}), 1, {2.5f, 6}}, Case{banded_volume({131, 70, 40}), 1, {2.5f, 6}},
+        Case{banded_volume({131, 70, 40}), 1, {0.3f, 6}}, Case{banded_volume({80, 80, 80}), 1, {0.05f, 6}},
+        Case{banded_volume({80, 80, 80}), 2, {0.02f, 6}}}) {
+    const GridView grid = make_grid_view(c.volume);
+    MajorantHierarchy updated(grid, c.cell_voxels, c.costs);
     TransferDescription description =
         mu_t_function({{0, 0}, {200, 0}, {250, 1}, {350, 0}, {600, 0.01}, {1000, 3}});
-    for (int n = 0; n < 25; ++n) {
+    for (int n = 0; n < 40; ++n) {
       const TransferFunction function(description);
       updated.update(function);
-      MajorantHierarchy fresh(grid, c.cell_voxels, costs);
+      MajorantHierarchy fresh(grid, c.cell_voxels, c.costs);
       fresh.update(function);
       ASSERT_EQ(all_words(updated.view()), all_words(fresh.view())) << "after edit " << n;
-      if (n % 5 == 0) expect_bounds(volume, function, updated.view(), 20000);
+      if (n % 5 == 0) expect_bounds(c.volume, function, updated.view(), 20000);
       description = edited(description, rng);
     }
   }

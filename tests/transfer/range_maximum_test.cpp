@@ -41,6 +41,10 @@ std::vector<TransferDescription> functions(Rng& rng) {
     const double scale = std::pow(10.0, f % 7 - 2);
     CurvePoints points = test::random_curve(-scale, scale, 20.0, 1 + f * f % 300, rng);
     out.push_back(mu_t_function(points));
+    // Visible here and there.
+    CurvePoints gaps = points;
+    for (auto& point : gaps) point.second *= rng.next() < 0.3f;
+    out.push_back(mu_t_function(gaps));
     for (auto& point : points) point.second = std::min(point.second / 20, 1.0);
     out.push_back(test::opacity_function(points, 0.5));
   }
@@ -70,6 +74,7 @@ std::vector<ValueRange> ranges_over(const TransferDescription& function, std::si
     const float lower = value(), narrow = rng.next() < 0.5f ? lower + 0.01f * width * rng.next() : value();
     out.push_back({std::min(lower, narrow), std::max(lower, narrow)});
     if (rng.next() < 0.1f) out.back().upper = out.back().lower;
+    if (rng.next() < 0.2f) out.back().upper = out.back().lower + 1e-4f * width * rng.next();
   }
   return out;
 }
