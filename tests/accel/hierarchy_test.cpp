@@ -3,38 +3,20 @@
 #include <gtest/gtest.h>
 
 #include "accel/majorant_grid.h"
-#include "base/parallel.h"
-#include "grid/sample.h"
-#include "support/transfers.h"
-#include "support/volumes.h"
+#include "hierarchy_words.h"
 
 namespace voxlume {
 namespace {
 
 using test::CurvePoints;
+using test::each_cell;
+using test::expect_bounds;
+using test::level_of;
+using test::majorant_of;
 using test::make_volume;
+using test::mixed_volume;
 using test::mu_t_function;
-using test::Size3;
-
-/// The words of a hierarchy, the ring around the grid included.
-std::vector<std::uint32_t> all_words(const HierarchyView& view) {
-  const std::uint32_t* first = view.words - view.stride_k - view.stride_j - 1;
-  return {first, first + std::ptrdiff_t{view.stride_k} * (view.count[2] + 2)};
-}
-
-std::uint32_t word_at(const HierarchyView& view, std::int32_t i, std::int32_t j, std::int32_t k) {
-  return view.words[std::ptrdiff_t{k} * view.stride_k + std::ptrdiff_t{j} * view.stride_j + i];
-}
-
-int level_of(std::uint32_t word) { return static_cast<int>(word & kLevelMask); }
-float majorant_of(std::uint32_t word) { return std::bit_cast<float>(word & ~kLevelMask); }
-
-template <class Visit>
-void each_cell(const HierarchyView& view, Visit&& visit) {
-  for (std::int32_t k = 0; k < view.count[2]; ++k)
-    for (std::int32_t j = 0; j < view.count[1]; ++j)
-      for (std::int32_t i = 0; i < view.count[0]; ++i) visit(i, j, k);
-}
+using test::word_at;
 
 /// The block of `level` around a cell, cut to the grid.
 struct BlockCells {
@@ -53,32 +35,6 @@ struct BlockCells {
         for (std::int32_t i = lower[0]; i < upper[0]; ++i) visit(i, j, k);
   }
 };
-
-/// Empty space, flat regions, slopes and noise: what makes blocks of every level.
-template <class T>
-Volume mixed_volume(Size3 size, double lower, double upper) {
-  Rng rng(61, 0, 0, 0);
-  return make_volume<T>(size, [&](auto i, auto j, auto k) {
-    const double x = static_cast<double>(i) / size[0], y = static_cast<double>(j) / size[1],
-                 z = static_cast<double>(k) / size[2];
-    const double noise = static_cast<double>(rng.next());
-    const double share = x < 0.5           ? 0.05
-                         : y < 0.3         ? 0.5 + 0.5 * std::sin(20 * z)
-                         : z < 0.4         ? noise
-                         : noise < 0.001   ? 1.0
-                         : x + y + z < 2.0 ? 0.3
-                                           : 0.7;
-    return lower + (upper - lower) * share;
-  });
-}
-
-/// Every cube of 8^3 voxels has a few values of its own.
-Volume banded_volume(Size3 size) {
-  return make_volume<std::int16_t>(size, [&](auto i, auto j, auto k) {
-    const auto cube = static_cast<std::uint32_t>(i / 8 + 37 * (j / 8) + 1009 * (k / 8));
-    return static_cast<double>(cube * 2654435761u % 997) + 3 * ((i + j + k) % 2);
-  });
-}
 
 /// The majorants of single cells, and so of every block, from the uniform grid.
 struct FinestMajorants {
@@ -117,21 +73,6 @@ void expect_consistent(const HierarchyView& view, const FinestMajorants& finest,
         if (clamped(i, 0) == i && clamped(j, 1) == j && clamped(k, 2) == k) continue;
         ASSERT_EQ(word_at(view, i, j, k), inside & ~kLevelMask) << "of the ring";
       }
-}
-
-/// No look-up of `draws` random points is above the majorant of its cell.
-void expect_bounds(const Volume& volume, const TransferFunction& function, const HierarchyView& view,
-                   int draws) {
-  const GridView grid = make_grid_view(volume);
-  Rng rng(62, 0, 0, 0);
-  for (int n = 0; n < draws; ++n) {
-    const Vec3f p = test::random_point(volume, rng);
-    std::int32_t at[3];
-    for (int a = 0; a < 3; ++a) at[a] = static_cast<std::int32_t>(std::floor(p[a] / view.cell_voxels));
-    ASSERT_LE(classify_mu_t(function.view(), sample_trilinear(grid, p)),
-              majorant_of(word_at(view, at[0], at[1], at[2])))
-        << "at " << p.x << " " << p.y << " " << p.z;
-  }
 }
 
 template <class T>
@@ -265,70 +206,6 @@ TEST(Hierarchies, BlocksAreJoinedWhereThatIsCheaper) {
     }
     EXPECT_GT(told, 100);
   }
-}
-
-/// Moves one of a function's points, now and then something else.
-TransferDescription edited(TransferDescription d, Rng& rng) {
-  const auto at = static_cast<std::size_t>(rng.next() * d.points.size());
-  const float kind = rng.next();
-  if (kind < 0.1f) {
-    d.density_scale *= 1.5;
-  } else if (kind < 0.2f) {
-    d.points[at].color = Color{{rng.next(), 0.5f, 0.5f}};
-  } else if (kind < 0.3f) {
-    d.density_scale = 0;
-  } else if (kind < 0.4f) {
-    d = mu_t_function(test::random_curve(0, 1000, 5, 9, rng));
-  } else {
-    d.points[at].mu_t_per_mm = kind < 0.6f ? 0.0 : 5.0 * static_cast<double>(rng.next());
-    if (kind > 0.8f) d.points[at].mu_t_per_mm = 1e-3;
-  }
-  if (d.density_scale == 0 && rng.next() < 0.5f) d.density_scale = 1;
-  return d;
-}
-
-TEST(HierarchyUpdate, OfAPartEqualsOneOfAll) {
-  Rng rng(65, 0, 0, 0);
-  struct Case {
-    Volume volume;
-    int cell_voxels;
-    HierarchyCosts costs;
-  };
-  const auto mixed = [](Size3 size) { return mixed_volume<std::int16_t>(size, 0, 1000); };
-  for (const Case& c :
-       {Case{mixed({131, 70, 40}), 1, {2.5f, 6}}, Case{mixed({131, 70, 40}), 2, {2.5f, 6}},
-        Case{mixed({66, 66, 66}), 1, {0.1f, 4}}, Case{mixed({40, 30, 20}), 1, {2.5f, 2}},
-        Case{mixed({1, 1, 1}), 1, {2.5f, 6}}, Case{mixed({3, 5, 7}), 1, {2.5f, 6}},
-        Case{mixed({90, 1, 20}), 1, {2.5f, 6}}, Case{banded_volume({131, 70, 40}), 1, {2.5f, 6}},
-        Case{banded_volume({131, 70, 40}), 1, {0.3f, 6}}, Case{banded_volume({80, 80, 80}), 1, {0.05f, 6}},
-        Case{banded_volume({80, 80, 80}), 2, {0.02f, 6}}}) {
-    const GridView grid = make_grid_view(c.volume);
-    MajorantHierarchy updated(grid, c.cell_voxels, c.costs);
-    TransferDescription description =
-        mu_t_function({{0, 0}, {200, 0}, {250, 1}, {350, 0}, {600, 0.01}, {1000, 3}});
-    for (int n = 0; n < 40; ++n) {
-      const TransferFunction function(description);
-      updated.update(function);
-      MajorantHierarchy fresh(grid, c.cell_voxels, c.costs);
-      fresh.update(function);
-      ASSERT_EQ(all_words(updated.view()), all_words(fresh.view())) << "after edit " << n;
-      if (n % 5 == 0) expect_bounds(c.volume, function, updated.view(), 20000);
-      description = edited(description, rng);
-    }
-  }
-}
-
-TEST(HierarchyUpdate, IsTheSameForAnyNumberOfThreads) {
-  const Volume volume = mixed_volume<std::uint8_t>({131, 70, 80}, 0, 255);
-  const TransferFunction function(mu_t_function({{20, 0}, {255, 3}}));
-  std::vector<std::uint32_t> words[2];
-  for (const int threads : {1, 4}) {
-    const ThreadLimit limit(threads);
-    MajorantHierarchy hierarchy(make_grid_view(volume), 1);
-    hierarchy.update(function);
-    words[threads > 1] = all_words(hierarchy.view());
-  }
-  EXPECT_EQ(words[0], words[1]);
 }
 
 TEST(Hierarchies, EmptyVolumesAreOneBlock) {
