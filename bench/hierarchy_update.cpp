@@ -1,5 +1,6 @@
 // Measures how fast a new transfer function reaches the majorants: builds a hierarchy over the head CT,
-// stretched to cubes of several sizes, and times whole and partial updates. Prints a markdown table. Usage:
+// stretched to cubes of several sizes, and times whole and partial updates: wall time on all
+// threads, and processor time of all threads together. Prints a markdown table. Usage:
 // voxlume_hierarchy_update VOLUME [EDGE...]
 #include <algorithm>
 #include <cstdio>
@@ -71,14 +72,15 @@ void measure(const Volume& volume, int cell_voxels) {
   MajorantHierarchy hierarchy(make_grid_view(volume), cell_voxels);
   const double build_ms = now_ms() - start;
   for (const Edit& edit : edits(volume)) {
-    std::vector<double> times;
+    std::vector<double> times, processor_times;
     for (int round = 0; round < 15; ++round) {
       hierarchy.update(edit.before);
-      const double begin = now_ms();
+      const double begin = now_ms(), processor_begin = processor_ms();
       hierarchy.update(edit.after);
       times.push_back(now_ms() - begin);
+      processor_times.push_back(processor_ms() - processor_begin);
     }
-    std::printf("| %lld^3 | %d | %.0f | %s | %.2f | %.2f |\n", static_cast<long long>(volume.size[0]),
+    std::printf("| %lld^3 | %d | %.0f | %s | %.2f | %.2f | %.2f |\n", static_cast<long long>(volume.size[0]),
                 cell_voxels, build_ms, edit.name, *std::min_element(times.begin(), times.end()),
                 median(times));
     std::fflush(stdout);
@@ -97,7 +99,8 @@ int main(int argc, char** argv) {
     description.path = argv[1];
     const Volume head = open_volume(description);
     std::printf(
-        "| voxels | cell | ranges, ms | edit | least, ms | median, ms |\n|---|---|---|---|---|---|\n");
+        "| voxels | cell | ranges, ms | edit | least, ms | median, ms | processor, ms "
+        "|\n|---|---|---|---|---|---|---|\n");
     std::vector<int> edges{256, 512};
     if (argc > 2) edges.clear();
     for (int i = 2; i < argc; ++i) edges.push_back(std::atoi(argv[i]));
