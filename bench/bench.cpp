@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/parallel.h"
+#include "grid/sample.h"
 #include "integrator/path_tracer.h"
 #include "render/render_loop.h"
 #include "scene/compile.h"
@@ -31,7 +32,7 @@ struct Render {
 std::unique_ptr<CompiledScene> load(const std::string& path,
                                     const std::function<void(SceneDescription&)>& edit) {
   SceneDescription scene = read_scene(path);
-  edit(scene);
+  if (edit) edit(scene);
   Volume volume = open_volume(scene.volume);
   const VolumeStatistics statistics = compute_statistics(make_grid_view(volume));
   return std::make_unique<CompiledScene>(resolve(scene, volume, statistics), std::move(volume), statistics);
@@ -69,6 +70,7 @@ struct Variant {
   Json report() const {
     const double wall = median(wall_s);
     return {{"name", name},
+            {"simd", simd_name(scene->view().simd)},
             {"threads", threads},
             {"spp", spp},
             {"wall_s", wall},
@@ -88,21 +90,8 @@ double speedup(const Variant& a, const Variant& b) {
   return median(ratios);
 }
 
-Json tracking(const std::string& folder, int rounds) {
-  const auto scene = [&](const std::function<void(SceneDescription&)>& edit) {
-    return std::shared_ptr<CompiledScene>(load(folder + "/ct-bone.json", edit));
-  };
-  const auto single = scene([](SceneDescription&) {});
-  const auto two_lit = scene([](SceneDescription& s) {
-    s.render.max_scatter = 2;
-    s.lights.reset();
-    s.environment.reset();
-  });
-  std::vector<Variant> variants;
-  variants.push_back({"ct-bone, 1 scattering", single, 1, 8, {}, {}});
-  variants.push_back({"ct-bone, 1 scattering, 2 threads", single, 2, 8, {}, {}});
-  variants.push_back({"ct-bone, 2 scatterings, default lights", two_lit, 1, 8, {}, {}});
-  variants.push_back({"ct-bone, 2 scatterings, default lights, 2 threads", two_lit, 2, 16, {}, {}});
+/// Renders the variants in turn, so that what slows the machine slows all.
+void run_rounds(std::vector<Variant>& variants, int rounds) {
   for (int round = 0; round < rounds; ++round) {
     for (Variant& v : variants) {
       const Render r = render(*v.scene, v.threads, v.spp);
@@ -110,9 +99,132 @@ Json tracking(const std::string& folder, int rounds) {
       v.counters = r.counters;
     }
   }
+}
+
+Json report(const std::vector<Variant>& variants) {
+  Json out = Json::array();
+  for (const Variant& v : variants) out.push_back(v.report());
+  return out;
+}
+
+using Edit = std::function<void(SceneDescription&)>;
+
+/// The main line's tracker: scalar code over macrocells, independent random numbers.
+void as_main_line(SceneDescription& s) {
+  s.render.accelerator = "macrocell";
+  s.render.simd = "scalar";
+  s.render.sampler = Sampler::kRandom;
+}
+
+Edit with_simd(const char* name) {
+  return [name](SceneDescription& s) { s.render.simd = name; };
+}
+
+Json tracking(const std::string& folder, int rounds) {
+  const auto scene = [&](const Edit& edit) {
+    return std::shared_ptr<CompiledScene>(load(folder + "/ct-bone.json", edit));
+  };
+  const auto two_lit = scene([](SceneDescription& s) {
+    s.render.max_scatter = 2;
+    s.lights.reset();
+    s.environment.reset();
+  });
+  const auto widest = scene({});
+  std::vector<Variant> variants;
+  const auto add = [&](const std::string& name, std::shared_ptr<CompiledScene> of, int threads, int spp) {
+    variants.push_back({name, std::move(of), threads, spp, {}, {}});
+    return variants.size() - 1;
+  };
+  const std::size_t auto_1 = add("1 scattering", widest, 1, 32), auto_2 = add("1 scattering", widest, 2, 64);
+  const std::size_t two_1 = add("2 scatterings, default lights", two_lit, 1, 16);
+  add("2 scatterings, default lights", two_lit, 2, 32);
+  const std::size_t main_line = add("1 scattering, scalar code over macrocells", scene(as_main_line), 1, 8);
+  const std::size_t scalar = add("1 scattering, scalar code", scene(with_simd("scalar")), 1, 8);
+  for (const SimdTarget target : {SimdTarget::kSse4, SimdTarget::kAvx2, SimdTarget::kNeon})
+    if (has_simd_target(target))
+      add(std::string("1 scattering, ") + simd_name(target), scene(with_simd(simd_name(target))), 1, 16);
+  run_rounds(variants, rounds);
+  const auto per_sample = [&](std::size_t a, std::size_t b) {
+    return speedup(variants[a], variants[b]) * variants[b].spp / variants[a].spp;
+  };
+  return {{"variants", report(variants)},
+          {"speedup_2_threads", per_sample(auto_1, auto_2)},
+          {"speedup_over_scalar_same_accelerator", per_sample(scalar, auto_1)},
+          {"speedup_over_scalar_macrocells", per_sample(main_line, auto_1)},
+          {"rate_of_2_scatterings_over_1", per_sample(auto_1, two_1)}};
+}
+
+/// `volume` with `factor` times as many voxels along each axis, interpolated.
+Volume upsampled(const Volume& volume, int factor) {
+  Volume out = volume;
+  for (int a = 0; a < 3; ++a) {
+    out.size[a] = volume.size[a] * factor;
+    out.spacing_mm[a] = volume.spacing_mm[a] / factor;
+  }
+  const GridView grid = make_grid_view(volume);
+  auto voxels = std::make_shared<std::vector<std::int16_t>>(out.voxel_count());
+  parallel_for(out.size[2], 1, [&](std::int64_t k) {
+    std::size_t at = static_cast<std::size_t>(k * out.size[1] * out.size[0]);
+    const auto f = static_cast<float>(factor);
+    for (std::int64_t j = 0; j < out.size[1]; ++j)
+      for (std::int64_t i = 0; i < out.size[0]; ++i)
+        (*voxels)[at++] = static_cast<std::int16_t>(sample_trilinear(
+            grid, {static_cast<float>(i) / f, static_cast<float>(j) / f, static_cast<float>(k) / f}));
+  });
+  out.type = VoxelType::kI16;
+  out.voxels = std::shared_ptr<const void>(voxels, voxels->data());
+  return out;
+}
+
+/// The head CT with 64 times its voxels (1024 x 1024 x 432).
+Json large(const std::string& folder, int rounds) {
+  SceneDescription description = read_scene(folder + "/ct-bone.json");
+  const Volume volume = upsampled(open_volume(description.volume), 4);
+  const VolumeStatistics statistics = compute_statistics(make_grid_view(volume));
+  std::vector<Variant> variants;
+  for (const bool main_line : {false, true}) {
+    if (main_line) as_main_line(description);
+    variants.push_back(
+        {main_line ? "1 scattering, scalar code over macrocells" : "1 scattering",
+         std::make_shared<CompiledScene>(resolve(description, volume, statistics), volume, statistics),
+         1,
+         main_line ? 4 : 16,
+         {},
+         {}});
+  }
+  run_rounds(variants, rounds);
+  return {{"voxels", volume.voxel_count()}, {"variants", report(variants)}};
+}
+
+/// Seconds of one core until the RMSE of luminance over the picture is 0.01, against a reference of other
+/// random numbers, for the default and for the main line's tracker.
+Json time_to_rmse(const std::string& folder) {
+  constexpr double kTarget = 0.01;
+  constexpr int kSpp = 32, kReferenceSpp = 1024;
+  const auto reference_scene =
+      load(folder + "/ct-bone.json", [](SceneDescription& s) { s.render.seed = 99; });
+  const Render reference = render(*reference_scene, 0, kReferenceSpp);
   Json out;
-  for (const Variant& v : variants) out["variants"].push_back(v.report());
-  out["speedup_2_threads"] = speedup(variants[0], variants[1]);
+  std::vector<double> seconds;
+  for (const Edit& edit : {Edit(as_main_line), Edit()}) {
+    const auto scene = load(folder + "/ct-bone.json", edit);
+    const Render r = render(*scene, 1, kSpp);
+    double squares = 0;
+    for (int y = 0; y < r.film.height(); ++y) {
+      for (int x = 0; x < r.film.width(); ++x) {
+        const double difference = luminance(r.film.mean(x, y)) - luminance(reference.film.mean(x, y));
+        squares += difference * difference - reference.film.variance_of_mean(x, y);
+      }
+    }
+    const double mean_square = squares / static_cast<double>(r.film.pixel_count());
+    seconds.push_back(r.wall_s * mean_square / (kTarget * kTarget));
+    out["variants"].push_back({{"name", seconds.size() == 1 ? "scalar code over macrocells" : "default"},
+                               {"spp", kSpp},
+                               {"wall_s", r.wall_s},
+                               {"rmse", std::sqrt(mean_square)},
+                               {"seconds_to_rmse_0.01", seconds.back()}});
+  }
+  out["ratio"] = seconds[1] / seconds[0];
   return out;
 }
 
@@ -152,17 +264,21 @@ Json peer(const std::string& folder, int max_scatter, int spp) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 2 || argc > 3) {
-    std::fprintf(stderr, "usage: voxlume_bench SCENES_FOLDER [ROUNDS]\n");
+  if (argc < 2 || argc > 4) {
+    std::fprintf(stderr, "usage: voxlume_bench SCENES_FOLDER [ROUNDS [tracking|large|rmse|peer]]\n");
     return 2;
   }
   try {
     const std::string folder = argv[1];
     const int rounds = argc > 2 ? std::max(1, std::atoi(argv[2])) : 5;
     Json out;
-    out["simd"] = "scalar";
-    out["tracking"] = tracking(folder, rounds);
-    out["peer"] = Json::array({peer(folder, 1, 16), peer(folder, 100, 8)});
+    out["simd"] = simd_name(best_simd_target());
+    const std::string part = argc > 3 ? argv[3] : "";
+    const auto wanted = [&](const char* name) { return part.empty() || part == name; };
+    if (wanted("tracking")) out["tracking"] = tracking(folder, rounds);
+    if (wanted("large")) out["large"] = large(folder, std::min(rounds, 3));
+    if (wanted("rmse")) out["time_to_rmse"] = time_to_rmse(folder);
+    if (wanted("peer")) out["peer"] = Json::array({peer(folder, 1, 16), peer(folder, 100, 8)});
     std::cout << out.dump(2) << "\n";
   } catch (const Error& error) {
     std::fprintf(stderr, "voxlume_bench: %s\n", error.what());

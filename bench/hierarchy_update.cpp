@@ -82,7 +82,7 @@ void measure(const Volume& volume, int cell_voxels) {
     }
     std::printf("| %lld^3 | %d | %.0f | %s | %.2f | %.2f | %.2f |\n", static_cast<long long>(volume.size[0]),
                 cell_voxels, build_ms, edit.name, *std::min_element(times.begin(), times.end()),
-                median(times));
+                median(times), median(processor_times));
     std::fflush(stdout);
   }
 }

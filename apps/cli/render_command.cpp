@@ -182,7 +182,7 @@ class RenderRun {
     if (request_.stats.empty()) return;
     statistics.load_s = load_s_;
     statistics.threads = thread_count();
-    statistics.simd = "scalar";
+    statistics.simd = simd_name(compiled_->view().simd);
     statistics.majorant_build_ms = compiled_->majorant_build_ms();
     statistics.seed = compiled_->description().render.seed;
     statistics.version = VOXLUME_VERSION;

@@ -141,6 +141,8 @@ struct ClipDescription {
 };
 
 enum class PixelFilter { kGaussian, kBox };
+/// How the first random numbers of a pixel's samples are chosen.
+enum class Sampler { kSobol, kRandom };
 enum class ToneCurve { kFilmic, kSrgb };
 
 /// The picture: its size, how long to work on it and how it is developed.
@@ -171,7 +173,9 @@ struct RenderDescription {
   /// Rule thresholds, in collisions over a finest cell's edge: thinner cells are left for larger ones, larger
   /// ones that are denser for their parts.
   std::array<double, 2> hierarchy_thresholds{0.1, 1};
-  std::string simd = "auto";         ///< auto scalar
+  Sampler sampler = Sampler::kSobol;
+  int light_samples = 1;      ///< shadow rays at the first scattering of a path
+  std::string simd = "auto";  ///< auto scalar
   std::string denoise = "none";
   /// Which techniques gather light at a scattering: "mis" (both), "light" (next-event estimation alone) or
   /// "direction" (direction sampling alone, which never finds point and directional lights).

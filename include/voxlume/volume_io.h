@@ -26,8 +26,8 @@ RawSpec parse_raw_spec(std::string_view text);
 struct ReadOptions {
   std::optional<RawSpec> raw;                       ///< read `path` as raw voxels
   std::optional<std::array<double, 3>> spacing_mm;  ///< overrides the file's spacing
-  /// Refuse volumes of more than this many bytes; 0 takes what the machine has available (not asked of mapped
-  /// raw).
+  /// Refuse volumes of more than this many bytes; 0 takes what the machine has available (not asked of
+  /// voxels that are mapped from their file).
   std::uint64_t memory_limit_bytes = 0;
 };
 
@@ -43,8 +43,12 @@ struct ReadOptions {
 ///
 /// All but raw is read in a forked child process, so that a damaged file cannot harm this one; the voxels
 /// come through shared memory without a copy. Peak memory is the voxels plus some megabytes; 3 times a file's
-/// pixels more for multi-frame DICOM. Raw little-endian voxels are mapped from the file, which must not be
-/// cut short while they are used. Safe to call from several threads.
+/// pixels more for multi-frame DICOM. Safe to call from several threads.
+///
+/// Uncompressed little-endian voxels of raw, NRRD, NHDR, MetaImage and NIfTI files are mapped instead, when
+/// their offset is a multiple of the voxel's size and their values are taken as they are: nothing is read
+/// before it is touched. Such a file may be removed or replaced by another, but must not be changed in place
+/// while its voxels are used; touching what was cut off ends the process (SIGBUS).
 ///
 /// Throws Error: kFileNotFound, kBadFormat, kUnsupported (4-D, RGB, complex, ...), kOutOfMemory,
 /// kBadParameter (of the options).

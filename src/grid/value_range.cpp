@@ -1,6 +1,8 @@
 #include "grid/value_range.h"
 
+#include <algorithm>
 #include <limits>
+#include <type_traits>
 
 #include "base/parallel.h"
 
@@ -15,10 +17,14 @@ ValueRange joined(ValueRange range, ValueRange other) {
           other.upper > range.upper ? other.upper : range.upper};
 }
 
-/// The ranges of `count` cells in a row from cell `first` on.
+/// The ranges of `count` cells in a row from cell `first` on. Bounds are kept in the voxels' type: converting
+/// to float keeps the order. (f64 is converted first, so that what is no float counts as it does in the
+/// look-up.)
 template <class T>
 void find_row(const T* voxels, const GridView& grid, const std::int32_t (&first)[3], int cell_voxels,
               std::int32_t count, ValueRange* out) {
+  using Bound = std::conditional_t<std::is_same_v<T, double>, float, T>;
+  using Limits = std::numeric_limits<Bound>;
   constexpr std::int32_t kBlock = 256;  // voxels along i that are done at once
   std::int32_t begin[3], end[3];
   for (int a = 0; a < 3; ++a) {
@@ -27,16 +33,17 @@ void find_row(const T* voxels, const GridView& grid, const std::int32_t (&first)
   }
   end[0] = std::min(begin[0] + count * cell_voxels + 1, grid.size[0]);
   std::fill_n(out, count, kNoValues);
-  float lower[kBlock], upper[kBlock];
+  Bound lower[kBlock], upper[kBlock];
   for (std::int32_t block = begin[0]; block < end[0]; block += kBlock) {
     const std::int32_t width = std::min(kBlock, end[0] - block);
-    std::fill_n(lower, width, kNoValues.lower);
-    std::fill_n(upper, width, kNoValues.upper);
+    std::fill_n(lower, width, Limits::max());
+    std::fill_n(upper, width, Limits::lowest());
     for (std::int32_t k = begin[2]; k < end[2]; ++k)
       for (std::int32_t j = begin[1]; j < end[1]; ++j) {
         const T* row = voxels + k * grid.stride_k + j * grid.stride_j + block;
         for (std::int32_t x = 0; x < width; ++x) {
-          const float v = static_cast<float>(row[x]);
+          const auto v = static_cast<Bound>(row[x]);
+          // A NaN changes neither bound.
           lower[x] = v < lower[x] ? v : lower[x];
           upper[x] = v > upper[x] ? v : upper[x];
         }
@@ -44,7 +51,7 @@ void find_row(const T* voxels, const GridView& grid, const std::int32_t (&first)
     for (std::int32_t x = 0; x < width; ++x) {
       // A voxel between two cells belongs to both.
       const std::int32_t at = block + x - begin[0], cell = at / cell_voxels;
-      const ValueRange column{lower[x], upper[x]};
+      const ValueRange column{static_cast<float>(lower[x]), static_cast<float>(upper[x])};
       if (cell < count) out[cell] = joined(out[cell], column);
       if (cell > 0 && cell * cell_voxels == at) out[cell - 1] = joined(out[cell - 1], column);
     }

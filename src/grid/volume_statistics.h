@@ -21,7 +21,7 @@ struct VolumeStatistics {
   float percentile(double fraction) const;
 };
 
-/// Reads every voxel once for values and once for gradients, on all threads.
+/// Exact for any size, on all threads. Comes past every voxel once, types wider than 16 bits twice.
 VolumeStatistics compute_statistics(const GridView& grid);
 
 }  // namespace voxlume

@@ -4,7 +4,6 @@
 
 #include "integrator/scatter_point.h"
 #include "light/sample_light.h"
-#include "sampling/warp.h"
 
 namespace voxlume {
 namespace {
@@ -25,42 +24,36 @@ float power_heuristic(float pdf, float other) noexcept {
 
 }  // namespace
 
-CameraPath::Wait CameraPath::begin(const SceneView& scene, int x, int y, std::uint32_t sample,
+CameraPath::Wait CameraPath::begin(const SceneView& scene, const PrimaryRay& primary,
                                    TraceCounters& counters) noexcept {
-  const std::uint32_t pixel =
-      static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(scene.width) + static_cast<std::uint32_t>(x);
-  rng_ = Rng(scene.seed, scene.frame, pixel, sample);
-  px_ = x + 0.5f + sample_filter(scene.filter, scene.filter_radius_px, rng_.next());
-  py_ = y + 0.5f + sample_filter(scene.filter, scene.filter_radius_px, rng_.next());
-  const float u_lens0 = rng_.next(), u_lens1 = rng_.next();
-  const CameraRay camera = camera_ray(scene.camera, px_, py_, u_lens0, u_lens1);
-  origin_world_ = camera.origin;
-  direction_world_ = camera.direction;
+  rng_ = primary.rng;
+  pixel_seed_ = primary.pixel_seed;
+  sample_ = primary.sample;
+  u_light_ = primary.u_light;
+  px_ = primary.px;
+  py_ = primary.py;
+  origin_world_ = primary.origin_world;
+  direction_world_ = primary.direction_world;
+  ray_ = primary.track;
   direction_pdf_ = 0;
   throughput_ = Vec3f(1);
   radiance_ = Vec3f(0);
   depth_ = 0;
   out_ = {};
   ++counters.paths;
-  return fly(scene, counters);
+  return primary.enters ? Wait::kFlight : end_flight(scene, {}, counters);
 }
 
-/// Sets ray() to the part of a ray that is inside the visible region, or, for light that what is cut away
-/// blocks, inside the volume; false when there is none.
-bool CameraPath::set_ray(const SceneView& scene, Vec3f origin_world, Vec3f direction_world, float t_max,
-                         bool clipped) noexcept {
-  const IndexRay ray = to_index_ray(scene.medium.grid, origin_world, direction_world);
-  Interval<float> run = clip_ray(scene.domain_index, ray.origin_index, ray.direction_index, 0.0f, t_max);
-  if (!run.empty() && clipped)
-    run = clip_ray(scene.clip_world, origin_world, direction_world, run.t_near, run.t_far);
-  ray_ = {ray, run.t_near, run.t_far};
-  return !run.empty();
+/// Two dimensions of the sample: stratified at the first scattering, independent later.
+UnitPair CameraPath::draw_pair(const SceneView& scene, SobolPair pair) noexcept {
+  if (depth_ == 0 && scene.sampler == Sampler::kSobol) return sobol_pair(pixel_seed_, sample_, pair);
+  const float u0 = rng_.next(), u1 = rng_.next();
+  return {u0, u1};
 }
 
 CameraPath::Wait CameraPath::fly(const SceneView& scene, TraceCounters& counters) noexcept {
-  const bool clipped = depth_ == 0 || !scene.clip_blocks_light;
-  if (set_ray(scene, origin_world_, direction_world_, kInfinity, clipped)) return Wait::kFlight;
-  return end_flight(scene, {}, counters);
+  ray_ = visible_part(scene, origin_world_, direction_world_, kInfinity, !scene.clip_blocks_light);
+  return enters() ? Wait::kFlight : end_flight(scene, {}, counters);
 }
 
 CameraPath::Wait CameraPath::end() noexcept {
@@ -94,6 +87,7 @@ CameraPath::Wait CameraPath::end_flight(const SceneView& scene, const Collision&
   // division by the probability of the choice, which would double the scattered energy).
   if (scene.scattering.shading == Shading::kExposureRender)
     point_.p_brdf = rng_.next() < point_.p_brdf ? 1.0f : 0.0f;
+  choice_ = scatter_choice(point_, -direction_world_);
   ++counters.scatterings;
   radiance_ += throughput_ * point_.albedo * scene.ambient;
   if (scene.light_sampling == LightSampling::kDirection) return scatter(scene, counters);
@@ -104,8 +98,9 @@ CameraPath::Wait CameraPath::end_flight(const SceneView& scene, const Collision&
 void CameraPath::collect_emitters(const SceneView& scene, const Collision& collision) noexcept {
   if (scene.light_sampling == LightSampling::kLight) return;
   const auto add = [&](const LightHit& hit) {
-    const float weight =
-        scene.light_sampling == LightSampling::kDirection ? 1.0f : power_heuristic(direction_pdf_, hit.pdf);
+    const float weight = scene.light_sampling == LightSampling::kDirection
+                             ? 1.0f
+                             : power_heuristic(direction_pdf_, hit.pdf * hit_samples_);
     radiance_ += throughput_ * hit.radiance * weight;
   };
   visit_rect_hits(scene.lights, origin_world_, direction_world_, collision.t_mm, add);
@@ -130,48 +125,62 @@ Vec3f CameraPath::background(const SceneView& scene) noexcept {
   return environment_hit(scene.lights, direction).radiance;
 }
 
-/// Next-event estimation: light from one sampled emitter, scattered back along the path.
+/// Next-event estimation: light from sampled emitters, scattered back along the path.
 CameraPath::Wait CameraPath::sample_direct_light(const SceneView& scene, TraceCounters& counters) noexcept {
-  const float u_pick = rng_.next(), u0 = rng_.next(), u1 = rng_.next();
-  const LightSample light = sample_light(scene.lights, p_world_, u_pick, u0, u1);
-  if (!(light.pdf > 0)) return scatter(scene, counters);
-  const ScatterValue scattered = eval_scatter(point_, -direction_world_, light.wi);
-  if (!(max_component(scattered.value * light.radiance) > 0)) return scatter(scene, counters);
+  u_pick_ = depth_ == 0 && u_light_ >= 0 ? u_light_ : rng_.next();
+  light_samples_left_ = light_samples(scene);
+  return next_light_sample(scene, counters);
+}
 
-  ++counters.shadow_rays;
-  const float weight = light.delta || scene.light_sampling == LightSampling::kLight
-                           ? 1.0f
-                           : power_heuristic(light.pdf, scattered.pdf);
-  unshadowed_ = throughput_ * scattered.value * light.radiance * (weight / light.pdf);
-  if (set_ray(scene, p_world_, light.wi, light.distance_mm, !scene.clip_blocks_light))
-    return Wait::kTransmittance;
-  return end_shadow_ray(scene, 1.0f, counters);
+CameraPath::Wait CameraPath::next_light_sample(const SceneView& scene, TraceCounters& counters) noexcept {
+  const auto count = static_cast<float>(light_samples(scene));
+  while (light_samples_left_ > 0) {
+    const auto stratum = static_cast<float>(--light_samples_left_);
+    const auto [u0, u1] = draw_pair(scene, SobolPair::kFirstLight);
+    const LightSample light = sample_light(scene.lights, p_world_, (stratum + u_pick_) / count, u0, u1);
+    if (!(light.pdf > 0)) continue;
+    const ScatterValue scattered = eval_scatter(point_, choice_, -direction_world_, light.wi);
+    if (!(max_component(scattered.value * light.radiance) > 0)) continue;
+
+    ++counters.shadow_rays;
+    const float pdf = light.pdf * count;
+    const float weight = light.delta || scene.light_sampling == LightSampling::kLight
+                             ? 1.0f
+                             : power_heuristic(pdf, scattered.pdf);
+    unshadowed_ = throughput_ * scattered.value * light.radiance * (weight / pdf);
+    ray_ = visible_part(scene, p_world_, light.wi, light.distance_mm, !scene.clip_blocks_light);
+    if (enters()) return Wait::kTransmittance;
+    radiance_ += unshadowed_;
+  }
+  return scatter(scene, counters);
 }
 
 CameraPath::Wait CameraPath::end_shadow_ray(const SceneView& scene, float transmittance,
                                             TraceCounters& counters) noexcept {
   radiance_ += unshadowed_ * transmittance;
-  return scatter(scene, counters);
+  return next_light_sample(scene, counters);
 }
 
 /// Turns the path at a scattering, unless it is absorbed or nothing can come of it.
 CameraPath::Wait CameraPath::scatter(const SceneView& scene, TraceCounters& counters) noexcept {
   if (scene.max_scatter > 0 && depth_ + 1 == scene.max_scatter && !scene.last_flight_collects) return end();
-  const float u_lobe = rng_.next(), u0 = rng_.next(), u1 = rng_.next();
-  const ScatterSample sample = sample_scatter(point_, -direction_world_, u_lobe, u0, u1);
+  const float u_lobe = rng_.next();
+  const auto [u0, u1] = draw_pair(scene, SobolPair::kFirstDirection);
+  const ScatterSample sample = sample_scatter(point_, choice_, -direction_world_, u_lobe, u0, u1);
   if (!(sample.pdf > 0)) return end();
   throughput_ *= sample.value / sample.pdf;
   origin_world_ = p_world_;
   direction_world_ = sample.wi;
   direction_pdf_ = sample.pdf;
-  if (!(max_component(throughput_) > 0) || !survives(scene)) return end();
+  hit_samples_ = static_cast<float>(light_samples(scene));
+  if (!(max_component(throughput_) > 0) || !survives()) return end();
   ++depth_;
   return fly(scene, counters);
 }
 
-/// Russian roulette for paths without a scattering limit.
-bool CameraPath::survives(const SceneView& scene) noexcept {
-  if (scene.max_scatter > 0 || depth_ < kRouletteDepth) return true;
+/// Russian roulette, whatever the scattering limit.
+bool CameraPath::survives() noexcept {
+  if (depth_ < kRouletteDepth) return true;
   const float probability = std::min(1.0f - kEnding / static_cast<float>(depth_), max_component(throughput_));
   if (rng_.next() >= probability) return false;
   throughput_ *= 1.0f / probability;

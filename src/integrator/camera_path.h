@@ -1,8 +1,10 @@
 #pragma once
 #include "film/film.h"
 #include "film/trace_counters.h"
+#include "integrator/primary_ray.h"
 #include "integrator/scene_view.h"
 #include "material/scatter.h"
+#include "sampling/sobol.h"
 #include "tracking/tracking.h"
 
 namespace voxlume {
@@ -19,8 +21,8 @@ class CameraPath {
   /// What a path waits for; kNothing when it has ended.
   enum class Wait { kNothing, kFlight, kTransmittance };
 
-  /// Begins sample `sample` of pixel (x, y). The random stream depends on (seed, frame, pixel, sample) alone.
-  Wait begin(const SceneView& scene, int x, int y, std::uint32_t sample, TraceCounters& counters) noexcept;
+  /// Begins a sample.
+  Wait begin(const SceneView& scene, const PrimaryRay& primary, TraceCounters& counters) noexcept;
   /// Goes on from kFlight.
   Wait end_flight(const SceneView& scene, const Collision& collision, TraceCounters& counters) noexcept;
   /// Goes on from kTransmittance, with an estimate of it in [0, 1].
@@ -33,26 +35,34 @@ class CameraPath {
   const PixelSample& sample() const noexcept { return out_; }
 
  private:
-  bool set_ray(const SceneView& scene, Vec3f origin_world, Vec3f direction_world, float t_max,
-               bool clipped) noexcept;
+  UnitPair draw_pair(const SceneView& scene, SobolPair pair) noexcept;
+  bool enters() const noexcept { return ray_.t_near < ray_.t_far; }
   Wait fly(const SceneView& scene, TraceCounters& counters) noexcept;
   Wait end() noexcept;
   void collect_emitters(const SceneView& scene, const Collision& collision) noexcept;
   Vec3f background(const SceneView& scene) noexcept;
   Wait sample_direct_light(const SceneView& scene, TraceCounters& counters) noexcept;
+  Wait next_light_sample(const SceneView& scene, TraceCounters& counters) noexcept;
+  int light_samples(const SceneView& scene) const noexcept { return depth_ == 0 ? scene.light_samples : 1; }
   Wait scatter(const SceneView& scene, TraceCounters& counters) noexcept;
-  bool survives(const SceneView& scene) noexcept;
+  bool survives() noexcept;
 
-  Rng rng_{{0, 0, 0, 1}};
+  Rng rng_;
   TrackRay ray_;
+  std::uint32_t pixel_seed_ = 0, sample_ = 0;
+  float u_light_ = -1;
   float px_ = 0, py_ = 0;
   Vec3f origin_world_, direction_world_;
   Vec3f throughput_;
   float direction_pdf_ = 0;  ///< with which the direction was sampled; 0 for the camera's
   int depth_ = 0;            ///< scatterings so far
   ScatterPoint point_{};     ///< of the present scattering
+  ScatterChoice choice_{};
   Vec3f p_world_;
-  Vec3f unshadowed_;  ///< radiance that the shadow ray's transmittance scales
+  float u_pick_ = 0;
+  int light_samples_left_ = 0;
+  float hit_samples_ = 1;  ///< light samples taken where the present direction was drawn
+  Vec3f unshadowed_;       ///< radiance that the shadow ray's transmittance scales
   Vec3f radiance_;
   PixelSample out_;
 };

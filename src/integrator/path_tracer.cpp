@@ -1,15 +1,134 @@
 #include "integrator/path_tracer.h"
 
+#include <algorithm>
+#include <tuple>
+#include <utility>
+#include <vector>
+
 #include "integrator/camera_path.h"
 
 namespace voxlume {
+namespace {
+
+/// Samples of a tile that are held back until they can be added in order.
+constexpr int kHeldSamples = 4096;
+
+/// The pixels of a tile, row by row.
+std::pair<int, int> pixel_at(const TileRect& tile, int index) {
+  const int width = tile.x1 - tile.x0;
+  return {tile.x0 + index % width, tile.y0 + index / width};
+}
+
+/// Follows many paths at once through some samples of every pixel of a tile: one in each lane of the vector
+/// tracker, and the next as soon as one ends. What happens at scatterings is scalar code.
+class LaneTracer {
+ public:
+  LaneTracer(const SceneView& scene, const TileRect& tile, int sample_begin, int sample_end,
+             std::span<PixelSample> results, TraceCounters& counters)
+      : scene_(scene),
+        tile_(tile),
+        sample_begin_(sample_begin),
+        samples_per_pixel_(sample_end - sample_begin),
+        results_(results),
+        counters_(counters) {}
+
+  void trace() {
+    for (int lane = 0; lane < Lanes::kCount; ++lane) start_next(lane);
+    while (busy_lanes_ > 0) {
+      track_lanes_(scene_.medium, lanes_);
+      for (int lane = 0; lane < Lanes::kCount; ++lane)
+        if (lanes_.state[lane] == Lanes::kDone) resume(lane);
+    }
+  }
+
+ private:
+  using Wait = CameraPath::Wait;
+
+  /// Samples of one pixel follow each other: neighbouring lanes take like ways.
+  std::pair<int, int> pixel_of(std::size_t job) const {
+    return pixel_at(tile_, static_cast<int>(job) / samples_per_pixel_);
+  }
+
+  std::uint32_t sample_of(std::size_t job) const {
+    return static_cast<std::uint32_t>(sample_begin_ + static_cast<int>(job) % samples_per_pixel_);
+  }
+
+  /// Jobs are asked for in order.
+  PrimaryRay primary_ray(std::size_t job) {
+    if (!fill_) {
+      const auto [x, y] = pixel_of(job);
+      return make_primary_ray(scene_, x, y, sample_of(job));
+    }
+    const int at = static_cast<int>(job % PrimaryRayBatch::kCount);
+    if (at == 0) {
+      for (std::size_t i = 0; i < PrimaryRayBatch::kCount; ++i) {
+        const std::size_t one = std::min(job + i, results_.size() - 1);
+        std::tie(batch_.x[i], batch_.y[i]) = pixel_of(one);
+        batch_.sample[i] = static_cast<std::int32_t>(sample_of(one));
+      }
+      fill_(scene_, batch_);
+    }
+    return batch_.at(at);
+  }
+
+  /// Gives a lane the next path that has a ray to track, if there is one.
+  void start_next(int lane) {
+    lanes_.state[lane] = Lanes::kIdle;
+    while (next_job_ < results_.size()) {
+      const std::size_t job = next_job_++;
+      const Wait wait = paths_[lane].begin(scene_, primary_ray(job), counters_);
+      if (wait == Wait::kNothing) {
+        results_[job] = paths_[lane].sample();
+      } else {
+        jobs_[lane] = job;
+        ++busy_lanes_;
+        lanes_.put(lane, paths_[lane].ray(), wait == Wait::kTransmittance, paths_[lane].rng());
+        return;
+      }
+    }
+  }
+
+  /// Takes what the tracker found and gives the lane its next ray.
+  void resume(int lane) {
+    CameraPath& path = paths_[lane];
+    counters_.tracking_steps += lanes_.steps[lane];
+    counters_.majorant_violations += lanes_.violations[lane];
+    path.rng() = lanes_.stream(lane);
+    const Wait wait = lanes_.is_shadow[lane]
+                          ? path.end_shadow_ray(scene_, lanes_.transmittance[lane], counters_)
+                          : path.end_flight(scene_, lanes_.collision(lane, path.ray().t_near), counters_);
+    if (wait == Wait::kNothing) {
+      results_[jobs_[lane]] = path.sample();
+      --busy_lanes_;
+      start_next(lane);
+    } else {
+      lanes_.put(lane, path.ray(), wait == Wait::kTransmittance, path.rng());
+    }
+  }
+
+  const SceneView& scene_;
+  const TileRect tile_;
+  const int sample_begin_, samples_per_pixel_;
+  const std::span<PixelSample> results_;
+  TraceCounters& counters_;
+  const VectorTracker track_lanes_ = vector_tracker(scene_.simd, scene_.medium);
+  const FillPrimaryRays fill_ = vector_primary_rays(scene_.simd, scene_.camera);
+  PrimaryRayBatch batch_;
+  std::size_t next_job_ = 0;
+  int busy_lanes_ = 0;
+  Lanes lanes_;
+  CameraPath paths_[Lanes::kCount];
+  std::size_t jobs_[Lanes::kCount];
+};
+
+}  // namespace
 
 PixelSample trace_camera_sample(const SceneView& scene, int x, int y, std::uint32_t sample,
                                 TraceCounters& counters) noexcept {
   using Wait = CameraPath::Wait;
   CameraPath path;
   TrackingCounters tracking;
-  Wait wait = path.begin(scene, x, y, sample, counters);
+  Wait wait = path.begin(scene, make_primary_ray(scene, x, y, sample), counters);
   while (wait != Wait::kNothing) {
     wait = wait == Wait::kFlight
                ? path.end_flight(scene, sample_free_flight(scene.medium, path.ray(), path.rng(), tracking),
@@ -22,12 +141,32 @@ PixelSample trace_camera_sample(const SceneView& scene, int x, int y, std::uint3
   return path.sample();
 }
 
+void trace_tile(const SceneView& scene, const TileRect& tile, int sample_begin, int sample_end,
+                std::span<PixelSample> samples, TraceCounters& counters) {
+  if (scene.simd != SimdTarget::kScalar)
+    return LaneTracer(scene, tile, sample_begin, sample_end, samples, counters).trace();
+  std::size_t next = 0;
+  for (int pixel = 0; pixel < tile.pixel_count(); ++pixel) {
+    const auto [x, y] = pixel_at(tile, pixel);
+    for (int sample = sample_begin; sample < sample_end; ++sample)
+      samples[next++] = trace_camera_sample(scene, x, y, static_cast<std::uint32_t>(sample), counters);
+  }
+}
+
 void render_tile(const SceneView& scene, const TileRect& tile, int sample_begin, int sample_end, Film& film,
                  TraceCounters& counters) {
-  for (int y = tile.y0; y < tile.y1; ++y)
-    for (int x = tile.x0; x < tile.x1; ++x)
-      for (int sample = sample_begin; sample < sample_end; ++sample)
-        film.add(x, y, trace_camera_sample(scene, x, y, static_cast<std::uint32_t>(sample), counters));
+  const int pixels = static_cast<int>(tile.pixel_count()), at_once = std::max(1, kHeldSamples / pixels);
+  std::vector<PixelSample> samples(static_cast<std::size_t>(pixels) *
+                                   std::max(0, std::min(at_once, sample_end - sample_begin)));
+  for (int begin = sample_begin; begin < sample_end; begin += at_once) {
+    const int end = std::min(begin + at_once, sample_end);
+    const std::span<PixelSample> part(samples.data(), static_cast<std::size_t>(pixels) * (end - begin));
+    trace_tile(scene, tile, begin, end, part, counters);
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      const auto [x, y] = pixel_at(tile, static_cast<int>(i) / (end - begin));
+      film.add(x, y, part[i]);
+    }
+  }
 }
 
 }  // namespace voxlume

@@ -1,4 +1,6 @@
 #pragma once
+#include <span>
+
 #include "film/film.h"
 #include "film/tile.h"
 #include "film/trace_counters.h"
@@ -6,12 +8,15 @@
 
 namespace voxlume {
 
-/// One camera sample of pixel (x, y): an unbiased estimate of its radiance. Scattering positions by delta
-/// tracking, direct light by next-event estimation with ratio-tracked shadow rays, combined with direction
-/// sampling by the power heuristic; after the last allowed scattering the sampled direction still collects
-/// light that reaches it unscattered. The random stream depends on (seed, frame, pixel, sample) alone.
+/// One camera sample of pixel (x, y) (integrator/camera_path.h), by scalar code.
 PixelSample trace_camera_sample(const SceneView& scene, int x, int y, std::uint32_t sample,
                                 TraceCounters& counters) noexcept;
+
+/// Samples [sample_begin, sample_end) of every pixel of `tile`, row by row, a pixel's samples together;
+/// `samples` has room for them. By the instruction set that scene.simd names; the results are those of
+/// trace_camera_sample with every one.
+void trace_tile(const SceneView& scene, const TileRect& tile, int sample_begin, int sample_end,
+                std::span<PixelSample> samples, TraceCounters& counters);
 
 /// Adds samples [sample_begin, sample_end) of every pixel of `tile` to `film`, in sample order.
 void render_tile(const SceneView& scene, const TileRect& tile, int sample_begin, int sample_end, Film& film,

@@ -18,8 +18,12 @@ Vec3f label_color(const LabelsView& labels, Vec3f p_world, Vec3f albedo) noexcep
 /// Sum of the outward normals of the faces less than `reach_mm` away, each fading from 1 on the face to 0.
 Vec3f face_normals(const Box3f& clip_world, const GridView& grid, Vec3f p_index, Vec3f p_world) noexcept {
   const float reach_mm = grid.step_mm;
-  Vec3f sum(0);
   const Box3f domain = grid.index_box();
+  const Vec3f reach_world(reach_mm);
+  const Box3f deep_index{domain.lower + grid.step_index, domain.upper - grid.step_index};
+  const Box3f deep_world{clip_world.lower + reach_world, clip_world.upper - reach_world};
+  if (deep_index.contains(p_index) && deep_world.contains(p_world)) return Vec3f(0);
+  Vec3f sum(0);
   for (int a = 0; a < 3; ++a) {
     Vec3f axis(0);
     axis[a] = 1;
@@ -62,10 +66,11 @@ MatterPoint matter_at(const SceneView& scene, Vec3f p_index, float value) noexce
   const float magnitude = length(outward);
   if (!(magnitude > 1e-6f) || !std::isfinite(magnitude)) return point;
   scatter.normal = outward / magnitude;
-  scatter.p_brdf = scattering.shading == Shading::kBrdf
-                       ? 1.0f
-                       : surface_share(scattering.surface_share, scattering.gradient_factor,
-                                       scattering.opacity_modulated, optics.opacity, magnitude);
+  scatter.p_brdf =
+      scattering.shading == Shading::kBrdf
+          ? 1.0f
+          : surface_share(scattering.surface_share, scattering.gradient_factor, scattering.opacity_modulated,
+                          opacity_of(scene.medium.transfer, optics.mu_t), magnitude);
   return point;
 }
 

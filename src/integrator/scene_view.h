@@ -3,6 +3,7 @@
 
 #include "camera/camera.h"
 #include "light/lights_view.h"
+#include "tracking/lanes.h"
 #include "tracking/medium.h"
 #include "voxlume/scene.h"
 
@@ -31,9 +32,10 @@ enum class LightSampling { kMis, kLight, kDirection };
 /// Everything a path needs, as plain data. Compiled once by CompiledScene, which owns what this points to.
 struct SceneView {
   Medium medium;
-  Box3f domain_index;              ///< the volume
-  Box3f clip_world;                ///< LPS mm; what is kept
-  bool clip_blocks_light = false;  ///< what is cut away still attenuates light
+  SimdTarget simd = SimdTarget::kScalar;  ///< the instruction set that tracks rays; kScalar: one by one
+  Box3f domain_index;                     ///< the volume
+  Box3f clip_world;                       ///< LPS mm; what is kept
+  bool clip_blocks_light = false;         ///< what is cut away still attenuates light
   ScatteringView scattering;
   LabelsView labels;
 
@@ -46,12 +48,25 @@ struct SceneView {
   std::int32_t width = 0, height = 0;
   PixelFilter filter = PixelFilter::kGaussian;
   float filter_radius_px = 1.5f;
+  Sampler sampler = Sampler::kSobol;
   std::uint64_t seed = 0;
   std::uint32_t frame = 0;
-  std::int32_t max_scatter = 2;  ///< 0: no limit
+  std::int32_t max_scatter = 2;    ///< 0: no limit
+  std::int32_t light_samples = 1;  ///< at the first scattering; later ones take one
   LightSampling light_sampling = LightSampling::kMis;
   /// Whether a flight after the last scattering can meet anything that emits.
   bool last_flight_collects = true;
 };
+
+/// The part of a ray up to t_max [mm] that is inside the volume and, if `clipped`, inside the clip box. None:
+/// t_near >= t_far.
+inline TrackRay visible_part(const SceneView& scene, Vec3f origin_world, Vec3f direction_world, float t_max,
+                             bool clipped) noexcept {
+  const IndexRay ray = to_index_ray(scene.medium.grid, origin_world, direction_world);
+  Interval<float> run = clip_ray(scene.domain_index, ray.origin_index, ray.direction_index, 0.0f, t_max);
+  if (!run.empty() && clipped)
+    run = clip_ray(scene.clip_world, origin_world, direction_world, run.t_near, run.t_far);
+  return {ray, run.t_near, run.t_far};
+}
 
 }  // namespace voxlume

@@ -84,16 +84,21 @@ inline ScatterParts eval_scatter_parts(const ScatterPoint& s, Vec3f wo, Vec3f wi
   return eval_scatter_parts(s, scatter_choice(s, wo), wo, wi);
 }
 
-/// h and q for unit wo and wi.
-inline ScatterValue eval_scatter(const ScatterPoint& s, Vec3f wo, Vec3f wi) noexcept {
-  const ScatterParts parts = eval_scatter_parts(s, wo, wi);
+/// h and q for unit wo and wi, for a choice made by scatter_choice(s, wo).
+inline ScatterValue eval_scatter(const ScatterPoint& s, const ScatterChoice& choice, Vec3f wo,
+                                 Vec3f wi) noexcept {
+  const ScatterParts parts = eval_scatter_parts(s, choice, wo, wi);
   return {parts.diffuse + parts.specular + parts.phase, parts.pdf};
 }
 
-/// Draws wi with density q; weight a path by value / pdf.
-inline ScatterSample sample_scatter(const ScatterPoint& s, Vec3f wo, float u_lobe, float u0,
-                                    float u1) noexcept {
-  const ScatterChoice choice = scatter_choice(s, wo);
+/// h and q for unit wo and wi.
+inline ScatterValue eval_scatter(const ScatterPoint& s, Vec3f wo, Vec3f wi) noexcept {
+  return eval_scatter(s, scatter_choice(s, wo), wo, wi);
+}
+
+/// Draws wi with density q; weight a path by value / pdf. `choice` is scatter_choice(s, wo).
+inline ScatterSample sample_scatter(const ScatterPoint& s, const ScatterChoice& choice, Vec3f wo,
+                                    float u_lobe, float u0, float u1) noexcept {
   if (!(choice.any > 0.0f)) return {-wo, Vec3f(0.0f), 0.0f};
   const bool from_surface = u_lobe < choice.surface;
   const Vec3f wi = from_surface
@@ -104,6 +109,12 @@ inline ScatterSample sample_scatter(const ScatterPoint& s, Vec3f wo, float u_lob
   if (from_surface && !same_side(s.normal, wo, wi)) return {wi, Vec3f(0.0f), 0.0f};
   const ScatterParts parts = eval_scatter_parts(s, choice, wo, wi);
   return {wi, parts.diffuse + parts.specular + parts.phase, parts.pdf};
+}
+
+/// The same, making the choice itself.
+inline ScatterSample sample_scatter(const ScatterPoint& s, Vec3f wo, float u_lobe, float u0,
+                                    float u1) noexcept {
+  return sample_scatter(s, scatter_choice(s, wo), wo, u_lobe, u0, u1);
 }
 
 }  // namespace voxlume

@@ -5,17 +5,20 @@
 
 namespace voxlume {
 
+inline constexpr std::uint32_t kPhiloxFactor0 = 0xD2511F53u, kPhiloxFactor1 = 0xCD9E8D57u;
+inline constexpr std::uint32_t kPhiloxKeyStep0 = 0x9E3779B9u, kPhiloxKeyStep1 = 0xBB67AE85u;
+
 /// One block of Philox4x32-7 (Salmon et al. 2011, "Parallel random numbers: as easy as 1, 2, 3"): a bijection
 /// of the 128-bit counter chosen by the 64-bit key. Seven rounds are the fewest that pass BigCrush.
 constexpr std::array<std::uint32_t, 4> philox4x32_7(std::array<std::uint32_t, 4> counter,
                                                     std::array<std::uint32_t, 2> key) {
   for (int round = 0; round < 7; ++round) {
-    const std::uint64_t p0 = std::uint64_t{0xD2511F53u} * counter[0];
-    const std::uint64_t p1 = std::uint64_t{0xCD9E8D57u} * counter[2];
+    const std::uint64_t p0 = std::uint64_t{kPhiloxFactor0} * counter[0];
+    const std::uint64_t p1 = std::uint64_t{kPhiloxFactor1} * counter[2];
     counter = {static_cast<std::uint32_t>(p1 >> 32) ^ counter[1] ^ key[0], static_cast<std::uint32_t>(p1),
                static_cast<std::uint32_t>(p0 >> 32) ^ counter[3] ^ key[1], static_cast<std::uint32_t>(p0)};
-    key[0] += 0x9E3779B9u;
-    key[1] += 0xBB67AE85u;
+    key[0] += kPhiloxKeyStep0;
+    key[1] += kPhiloxKeyStep1;
   }
   return counter;
 }
@@ -36,6 +39,7 @@ class Rng {
     // The one state that xoshiro never leaves.
     if ((state_[0] | state_[1] | state_[2] | state_[3]) == 0) state_[0] = 1;
   }
+  constexpr Rng() : state_{1, 0, 0, 0} {}
   /// Goes on where another stream stands.
   constexpr explicit Rng(const std::array<std::uint32_t, 4>& state) : state_(state) {}
 

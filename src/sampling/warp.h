@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "base/vec.h"
+#include "sampling/logarithm.h"
 #include "voxlume/scene.h"
 
 namespace voxlume {
@@ -57,33 +58,34 @@ inline float cosine_hemisphere_pdf(float cos_theta) noexcept {
   return std::max(0.0f, cos_theta) * std::numbers::inv_pi_v<float>;
 }
 
-/// Inverse of erf for |x| <= 0.9999, relative error below 1e-6 (Giles 2010, "Approximating the erfinv
-/// function", the single precision polynomials).
+// Giles 2010, "Approximating the erfinv function", the single precision polynomials: in w - 2.5 for w below
+// kErfSplit, else in sqrt(w) - 3, where w = -log(1 - x^2).
+inline constexpr float kErfSplit = 5.0f;
+inline constexpr float kErfCentre[9] = {2.81022636e-08f,  3.43273939e-07f, -3.5233877e-06f,
+                                        -4.39150654e-06f, 0.00021858087f,  -0.00125372503f,
+                                        -0.00417768164f,  0.246640727f,    1.50140941f};
+inline constexpr float kErfTail[9] = {-0.000200214257f, 0.000100950558f, 0.00134934322f,
+                                      -0.00367342844f,  0.00573950773f,  -0.0076224613f,
+                                      0.00943887047f,   1.00167406f,     2.83297682f};
+
+/// Inverse of erf for |x| <= 0.9999, relative error below 1e-6.
 inline float inverse_erf(float x) noexcept {
-  const float w = -std::log((1.0f - x) * (1.0f + x));
-  float p;
-  if (w < 5.0f) {
-    const float v = w - 2.5f;
-    p = 2.81022636e-08f;
-    for (float c : {3.43273939e-07f, -3.5233877e-06f, -4.39150654e-06f, 0.00021858087f, -0.00125372503f,
-                    -0.00417768164f, 0.246640727f, 1.50140941f})
-      p = c + p * v;
-  } else {
-    const float v = std::sqrt(w) - 3.0f;
-    p = -0.000200214257f;
-    for (float c : {0.000100950558f, 0.00134934322f, -0.00367342844f, 0.00573950773f, -0.0076224613f,
-                    0.00943887047f, 1.00167406f, 2.83297682f})
-      p = c + p * v;
-  }
+  const float w = negative_log((1.0f - x) * (1.0f + x));
+  const bool centre = w < kErfSplit;
+  const float* polynomial = centre ? kErfCentre : kErfTail;
+  const float v = centre ? w - 2.5f : std::sqrt(w) - 3.0f;
+  float p = polynomial[0];
+  for (int i = 1; i < 9; ++i) p = polynomial[i] + p * v;
   return p * x;
 }
+
+inline constexpr float kErfOfCut = 0.99730020393674f;  // erf(3 / sqrt 2)
 
 /// Importance-samples one axis of the pixel filter: an offset from the pixel's centre in pixels, within
 /// [-radius_px, radius_px]. The gaussian has sigma = radius_px / 3 and is cut at the radius exactly.
 inline float sample_filter(PixelFilter filter, float radius_px, float u) noexcept {
   const float centred = 2.0f * u - 1.0f;
   if (filter == PixelFilter::kBox) return radius_px * centred;
-  constexpr float kErfOfCut = 0.99730020393674f;  // erf(3 / sqrt 2)
   const float sigma = radius_px * (1.0f / 3.0f);
   const float offset = sigma * std::numbers::sqrt2_v<float> * inverse_erf(centred * kErfOfCut);
   return std::clamp(offset, -radius_px, radius_px);

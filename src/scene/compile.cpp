@@ -24,10 +24,20 @@ constexpr double kMaxVoxelDepth = 1e5;
 
 Vec3f to_vec(const Color& color) { return {color.linear[0], color.linear[1], color.linear[2]}; }
 
+SimdTarget simd_target(const std::string& name) {
+  if (name == "auto") return best_simd_target();
+  std::string available = "auto";
+  for (const SimdTarget target :
+       {SimdTarget::kScalar, SimdTarget::kSse4, SimdTarget::kAvx2, SimdTarget::kAvx512, SimdTarget::kNeon}) {
+    if (!has_simd_target(target)) continue;
+    if (name == simd_name(target)) return target;
+    available += std::string(", ") + simd_name(target);
+  }
+  throw Error(ErrorCode::kUnsupported, "/render/simd",
+              "this machine has no \"" + name + "\"; available: " + available);
+}
+
 void check_built(const RenderDescription& render) {
-  if (render.simd != "auto" && render.simd != "scalar")
-    throw Error(ErrorCode::kUnsupported, "/render/simd",
-                "\"" + render.simd + "\" is not built yet; available: auto, scalar");
   if (render.denoise != "none")
     throw Error(ErrorCode::kUnsupported, "/render/denoise",
                 "\"" + render.denoise + "\" is not built yet; available: none");
@@ -131,6 +141,8 @@ void CompiledScene::compile_medium(const SceneDescription& local) {
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   view_.medium = {make_grid_view(moved_to_origin(volume_, origin_mm_)), transfer_.view(),
                   accelerator_.view()};
+  view_.simd = simd_target(description_.render.simd);
+  if (!vector_tracker(view_.simd, view_.medium)) view_.simd = SimdTarget::kScalar;
   view_.domain_index = view_.medium.grid.index_box();
   view_.clip_world = {Vec3f(-1e30f), Vec3f(1e30f)};
   if (const auto& clip = local.clip) {
@@ -198,6 +210,8 @@ void CompiledScene::compile_image() {
   view_.seed = render.seed;
   view_.frame = render.frame;
   view_.max_scatter = render.max_scatter;
+  view_.sampler = render.sampler;
+  view_.light_samples = render.light_samples;
   view_.light_sampling = light_sampling(render.light_sampling);
   view_.last_flight_collects =
       transfer_.emits() || (view_.light_sampling != LightSampling::kLight &&

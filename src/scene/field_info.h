@@ -101,6 +101,10 @@ struct EnumWords<PixelFilter> {
   static constexpr std::array<std::string_view, 2> kWords{"gaussian", "box"};
 };
 template <>
+struct EnumWords<Sampler> {
+  static constexpr std::array<std::string_view, 2> kWords{"sobol", "random"};
+};
+template <>
 struct EnumWords<ToneCurve> {
   static constexpr std::array<std::string_view, 2> kWords{"filmic", "srgb"};
 };

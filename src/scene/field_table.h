@@ -9,10 +9,10 @@ namespace voxlume {
 // visitor(FieldInfo, &T::member) for every field, in the order in which files are written. A field that is
 // not here does not exist in scene files.
 
-inline const WordChoices kAcceleratorWords{
-    {"auto", "none", "macrocell", "octree", "hierarchy", "residency"}, {}};
+inline const WordChoices kAcceleratorWords{{"auto", "none", "macrocell", "octree", "hierarchy", "residency"},
+                                           {}};
 inline const WordChoices kHierarchyRuleWords{{"cost", "thresholds"}, {}};
-inline const WordChoices kSimdWords{{"auto", "scalar"}, {"sse4", "avx2", "avx512"}};
+inline const WordChoices kSimdWords{{"auto", "scalar", "sse4", "avx2", "avx512", "neon"}, {}};
 inline const WordChoices kDenoiseWords{{"none"}, {"decoupled", "wrls", "svgf"}};
 inline const WordChoices kLightSamplingWords{{"mis", "light", "direction"}, {}};
 inline const WordChoices kAovWords{{"alpha", "depth", "normal", "albedo", "samples", "variance"}, {}};
@@ -84,22 +84,33 @@ void visit_fields(V&& visit, Struct<RenderDescription>) {
          .unit = "voxels",
          .range = between(0, 1024)},
         &T::macrocell_voxels);
-  visit({.key = "hierarchy_rule",
-         .doc = "What joins the hierarchy's cells to larger ones: the cost of crossing them (lookup_cost), or "
-                "the thresholds of xu2025. The picture stays the same.",
-         .words = &kHierarchyRuleWords},
-        &T::hierarchy_rule);
+  visit(
+      {.key = "hierarchy_rule",
+       .doc = "What joins the hierarchy's cells to larger ones: the cost of crossing them (lookup_cost), or "
+              "the thresholds of xu2025. The picture stays the same.",
+       .words = &kHierarchyRuleWords},
+      &T::hierarchy_rule);
   visit({.key = "lookup_cost",
          .doc = "Rule cost: what a look-up of the data costs, in crossings of a cell. Greater values make "
                 "finer cells.",
          .range = between(0, 1000)},
         &T::lookup_cost);
-  visit({.key = "hierarchy_thresholds",
-         .doc = "Rule thresholds: a walk leaves cells of fewer collisions than the first number for larger "
-                "ones, and cells of more than the second for their parts. A cell counts as one of the finest.",
-         .unit = "collisions over the edge of a finest cell",
-         .range = between(0, 1e6)},
-        &T::hierarchy_thresholds);
+  visit(
+      {.key = "hierarchy_thresholds",
+       .doc = "Rule thresholds: a walk leaves cells of fewer collisions than the first number for larger "
+              "ones, and cells of more than the second for their parts. A cell counts as one of the finest.",
+       .unit = "collisions over the edge of a finest cell",
+       .range = between(0, 1e6)},
+      &T::hierarchy_thresholds);
+  visit({.key = "sampler",
+         .doc = "The first random numbers of a pixel's samples: stratified against each other (sobol), which "
+                "converges faster, or independent (random)."},
+        &T::sampler);
+  visit({.key = "light_samples",
+         .doc =
+             "Shadow rays at the first scattering of a path. More than one pays where several lights matter.",
+         .range = between(1, 64)},
+        &T::light_samples);
   visit({.key = "simd", .doc = "Instruction set.", .words = &kSimdWords}, &T::simd);
   visit({.key = "denoise", .doc = "Denoiser.", .words = &kDenoiseWords}, &T::denoise);
   visit({.key = "light_sampling",

@@ -22,6 +22,7 @@ struct IndexRay {
 struct TrackRay {
   IndexRay ray;
   float t_near = 0, t_far = 0;
+  float first_u = -1;  ///< the first random number; negative: the ray's stream gives that too
 };
 
 inline IndexRay to_index_ray(const GridView& grid, Vec3f origin_world, Vec3f direction_world) noexcept {

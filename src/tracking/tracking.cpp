@@ -10,25 +10,28 @@ namespace {
 template <class Visit>
 void visit_tentative_collisions(const Medium& medium, const TrackRay& track, Rng& rng,
                                 Visit&& visit) noexcept {
-  const auto& [ray, t_near, t_far] = track;
-  float tau = sample_optical_depth(rng.next());
+  const IndexRay& ray = track.ray;
+  const float t_near = track.t_near, t_far = track.t_far, first_u = track.first_u;
+  float tau = sample_optical_depth(first_u >= 0 ? first_u : rng.next());
   // From here on distances are counted from where the ray enters: far from the eye, t is coarser.
-  const Vec3f origin = ray.origin_index + ray.direction_index * t_near;
+  const Box3f domain = medium.grid.index_box();
+  const Vec3f origin = min(max(ray.origin_index + ray.direction_index * t_near, domain.lower), domain.upper);
   with_walk(medium.accelerator, origin, ray.direction_index, t_far - t_near, [&](auto& walk) {
     MajorantSegment segment;
     while (walk.next(segment)) {
+      const float mu_maj = segment.mu_maj;
       const float length_mm = segment.t_far - segment.t_near;
       float entered_mm = 0;
       for (;;) {
-        const float next_mm = entered_mm + tau / segment.mu_maj;
+        const float next_mm = entered_mm + tau / mu_maj;
         if (!(next_mm < length_mm)) break;  // also without extinction, where next_mm is infinite or NaN
         entered_mm = next_mm;
         const float t = segment.t_near + entered_mm;
         const Vec3f p = origin + ray.direction_index * t;
-        if (visit(t_near + t, min(max(p, segment.cell.lower), segment.cell.upper), segment.mu_maj)) return;
+        if (visit(t_near + t, min(max(p, segment.cell.lower), segment.cell.upper), mu_maj)) return;
         tau = sample_optical_depth(rng.next());
       }
-      const float left = tau - (length_mm - entered_mm) * segment.mu_maj;
+      const float left = tau - (length_mm - entered_mm) * mu_maj;
       tau = left > 0 ? left : 0;
     }
   });

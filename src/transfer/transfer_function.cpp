@@ -11,7 +11,7 @@ namespace voxlume {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr int kBuckets = 1024;
+constexpr int kBuckets = 4096;
 constexpr double kSaturatedOpacity = 0.9999;
 const Vec3d kDefaultAlbedo(0.8);
 
@@ -172,24 +172,39 @@ TransferFunction::TransferFunction(const TransferDescription& d) {
     pieces_.push_back(piece);
   }
 
-  const float origin = pieces_[0].anchor, width = pieces_.back().start - origin;
-  buckets_per_unit_ = width > 0 ? kBuckets / width : 0;
-  std::int32_t piece = 0;
-  for (int b = 0; b < kBuckets; ++b) {
-    const float value = origin + width * static_cast<float>(b) / kBuckets;
-    while (piece + 1 < static_cast<std::int32_t>(pieces_.size()) && value >= pieces_[piece + 1].start)
-      ++piece;
-    bucket_piece_.push_back(piece);
-  }
+  for (const TransferPiece& piece : pieces_)
+    extinction_.push_back({piece.start, piece.anchor, piece.mu_t, piece.mu_t_slope});
+  extinction_.push_back({std::numeric_limits<float>::quiet_NaN(), 0, 0, 0});
+
+  fill_buckets();
 
   maximum_ = RangeMaximum(pieces_);
+}
+
+void TransferFunction::fill_buckets() {
+  const float origin = pieces_[0].anchor, width = pieces_.back().start - origin;
+  buckets_per_unit_ = width > 0 ? kBuckets / width : 0;
+  // More than the rounding of a value's place among the buckets, so that look-ups need only go forward.
+  const float slack = 1e-5f * (std::abs(origin) + width);
+  const auto last = static_cast<std::int32_t>(pieces_.size()) - 1;
+  std::int32_t piece = 0;
+  for (int b = 0; b < kBuckets; ++b) {
+    const float lower = origin + width * static_cast<float>(b) / kBuckets - slack;
+    const float upper = origin + width * static_cast<float>(b + 1) / kBuckets + slack;
+    while (b > 0 && piece < last && lower >= pieces_[piece + 1].start) ++piece;
+    const bool crowded = piece + 2 <= last && (b + 1 == kBuckets || upper >= pieces_[piece + 2].start);
+    bucket_piece_.push_back(crowded ? ~piece : piece);
+    bucket_split_.push_back(extinction_[piece + 1].start);
+  }
 }
 
 TransferView TransferFunction::view() const {
   TransferView view;
   view.pieces = pieces_.data();
   view.piece_count = static_cast<std::int32_t>(pieces_.size());
+  view.extinction = extinction_.data();
   view.bucket_piece = bucket_piece_.data();
+  view.bucket_split = bucket_split_.data();
   view.bucket_count = kBuckets;
   view.bucket_origin = pieces_[0].anchor;
   view.buckets_per_unit = buckets_per_unit_;

@@ -30,7 +30,10 @@ class TransferFunction {
 
  private:
   std::vector<TransferPiece> pieces_;
+  std::vector<ExtinctionPiece> extinction_;
   std::vector<std::int32_t> bucket_piece_;
+  std::vector<float> bucket_split_;
+  void fill_buckets();
   float buckets_per_unit_ = 0;
   float reference_length_mm_ = 1;
   RangeMaximum maximum_;

@@ -86,6 +86,11 @@ void check_geometry(const std::filesystem::path& path, Volume& volume) {
       fail(ErrorCode::kBadFormat, path,
            fmt::format("size {}; expected three sizes of at least 1", fmt::join(volume.size, "x")));
     }
+    if (n > kMaxAxisVoxels) {
+      fail(ErrorCode::kUnsupported, path,
+           fmt::format("size {}; expected at most {} along each axis", fmt::join(volume.size, "x"),
+                       kMaxAxisVoxels));
+    }
     bytes *= static_cast<double>(n);
   }
   if (bytes > 0x1p60) {

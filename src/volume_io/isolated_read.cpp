@@ -13,6 +13,7 @@
 #include <csignal>
 #include <cstring>
 #include <mutex>
+#include <utility>
 
 #include "base/fail.h"
 #include "volume_io/child_limits.h"
@@ -54,7 +55,7 @@ void write_all(int to, std::string_view text) {
   std::string line;
   try {
     enter_child_limits(path);
-    const Volume volume = read_staged(path, options, [&](std::uint64_t bytes, std::uint64_t working_bytes) {
+    const auto allocate = [&](std::uint64_t bytes, std::uint64_t working_bytes) {
       allow_voxel_memory(bytes, working_bytes);
       if (ftruncate(voxel_file, static_cast<off_t>(bytes)) != 0) {
         fail(ErrorCode::kOutOfMemory, path, fmt::format("cannot allocate {} bytes of shared memory", bytes));
@@ -62,8 +63,8 @@ void write_all(int to, std::string_view text) {
       void* start = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, voxel_file, 0);
       if (start == MAP_FAILED) fail(ErrorCode::kOutOfMemory, path, fmt::format("cannot map {} bytes", bytes));
       return std::shared_ptr<void>(start, [](void*) {});
-    });
-    line = encode_volume(volume);
+    };
+    line = encode_volume(read_staged(path, options, allocate));
   } catch (const Error& error) {
     line = encode_error(error);
   } catch (...) {
@@ -169,15 +170,18 @@ Volume read_isolated(const std::filesystem::path& path, const ReadOptions& optio
     const ChildOutcome outcome = read_in_child(path, options, voxel_file.get());
     if (outcome.deadlocked && tries < kMaxTries) continue;
     if (outcome.timed_out || outcome.status != 0 || outcome.line.empty()) fail_child(path, outcome);
-    Volume volume = decode_result(outcome.line);
-    volume.voxels = map_result(path, voxel_file.get(), volume.byte_count());
-    return volume;
+    auto [volume, in_file] = decode_result(outcome.line);
+    volume.voxels =
+        in_file ? map_voxels(*in_file, volume) : map_result(path, voxel_file.get(), volume.byte_count());
+    return std::move(volume);
   }
 }
 
 Volume read_in_process(const std::filesystem::path& path, const ReadOptions& options) {
-  return read_staged(path, options,
-                     [&](std::uint64_t bytes, std::uint64_t) { return allocate_voxels(path, bytes); });
+  auto [volume, in_file] = read_staged(
+      path, options, [&](std::uint64_t bytes, std::uint64_t) { return allocate_voxels(path, bytes); });
+  if (in_file) volume.voxels = map_voxels(*in_file, volume);
+  return std::move(volume);
 }
 
 }  // namespace voxlume

@@ -60,6 +60,13 @@ class MetaReader : public VolumeReader {
     return header;
   }
 
+  std::optional<VoxelsInFile> voxels_in_file() const override {
+    const MetaImage& meta = *io_->GetMetaImagePointer();
+    const bool swapped = meta.BinaryDataByteOrderMSB() && value_bytes_ > 1;
+    if (!meta.BinaryData() || meta.CompressedData() || swapped) return std::nullopt;
+    return VoxelsInFile{data_path_, offset_};
+  }
+
   void read_voxels(void* voxels) override {
     const MetaImage& meta = *io_->GetMetaImagePointer();
     if (!meta.BinaryData()) {

@@ -74,6 +74,12 @@ class NiftiReader : public VolumeReader {
     return header;
   }
 
+  std::optional<VoxelsInFile> voxels_in_file() const override {
+    const bool swapped = nifti_.swapped && stored_bytes_ > 1;
+    if (deflated_ || scaled_ || swapped) return std::nullopt;
+    return VoxelsInFile{path_, static_cast<std::uint64_t>(nifti_.vox_offset)};
+  }
+
   void read_voxels(void* voxels) override {
     // Stored values narrower than the result are put at its end and widened from the front.
     const std::uint64_t bytes = count_ * stored_bytes_;

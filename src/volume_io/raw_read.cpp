@@ -1,18 +1,14 @@
 #include "volume_io/raw_read.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
-#include <bit>
 #include <cmath>
 
 #include "base/fail.h"
+#include "volume_io/file_map.h"
+#include "volume_io/geometry_check.h"
 #include "volume_io/memory_limit.h"
 #include "volume_io/voxel_stream.h"
-
-static_assert(std::endian::native == std::endian::little, "files are mapped as little-endian voxels");
 
 namespace voxlume {
 namespace {
@@ -24,6 +20,11 @@ void check_spec(const std::filesystem::path& path, const RawSpec& spec) {
       fail(ErrorCode::kBadParameter, path,
            fmt::format("raw size {}; expected three sizes of at least 1", fmt::join(spec.size, "x")));
     }
+    if (n > kMaxAxisVoxels) {
+      fail(ErrorCode::kBadParameter, path,
+           fmt::format("raw size {}; expected at most {} along each axis", fmt::join(spec.size, "x"),
+                       kMaxAxisVoxels));
+    }
     bytes *= static_cast<double>(n);
   }
   if (bytes > 0x1p60 || spec.offset_bytes > (1ull << 60)) {
@@ -34,18 +35,6 @@ void check_spec(const std::filesystem::path& path, const RawSpec& spec) {
       fail(ErrorCode::kBadParameter, path, fmt::format("raw spacing {}; expected numbers above 0 (mm)", s));
     }
   }
-}
-
-std::shared_ptr<const void> map_file(const std::filesystem::path& path, std::uint64_t offset,
-                                     std::uint64_t bytes) {
-  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) fail(ErrorCode::kFileNotFound, path, "cannot open this file for reading");
-  const std::size_t length = offset + bytes;
-  void* start = mmap(nullptr, length, PROT_READ, MAP_PRIVATE, file, 0);
-  close(file);
-  if (start == MAP_FAILED) fail(ErrorCode::kOutOfMemory, path, fmt::format("cannot map {} bytes", length));
-  std::shared_ptr<const void> owner(start, [length](const void* p) { munmap(const_cast<void*>(p), length); });
-  return {owner, static_cast<const unsigned char*>(start) + offset};
 }
 
 }  // namespace
@@ -73,11 +62,10 @@ Volume read_raw(const std::filesystem::path& path, const RawSpec& spec, std::uin
                     "size given may be wrong",
                     file_bytes - expected));
   }
-  const bool aligned = spec.offset_bytes % voxel_bytes(spec.type) == 0;
   const bool swapped = spec.big_endian && voxel_bytes(spec.type) > 1;
-  if (aligned && !swapped) {
+  if (is_aligned(spec.offset_bytes, spec.type) && !swapped) {
     if (memory_limit_bytes > 0) check_memory(path, volume, bytes, memory_limit_bytes);
-    volume.voxels = map_file(path, spec.offset_bytes, bytes);
+    volume.voxels = map_voxels({path, spec.offset_bytes}, volume);
     return volume;
   }
   check_memory(path, volume, bytes, memory_limit_bytes);

@@ -5,8 +5,8 @@
 
 namespace voxlume {
 
-/// Reads headerless voxels. Little-endian aligned voxels are mapped from the file, not copied: the file must
-/// not be shortened while the volume lives. Throws Error kBadFormat naming both sizes when the file is too
+/// Reads headerless voxels. Little-endian aligned voxels are mapped from the file, not copied (map_voxels).
+/// Throws Error kBadFormat naming both sizes when the file is too
 /// short, kBadParameter for a specification that cannot be.
 Volume read_raw(const std::filesystem::path& path, const RawSpec& spec, std::uint64_t memory_limit_bytes);
 

@@ -13,15 +13,23 @@ std::string one_json_line(const json& value) {
 
 }  // namespace
 
-std::string encode_volume(const Volume& volume) {
-  return one_json_line({{"size", volume.size},
-                        {"type", static_cast<int>(volume.type)},
-                        {"spacing_mm", volume.spacing_mm},
-                        {"origin_mm", volume.origin_mm},
-                        {"direction", volume.direction},
-                        {"modality", volume.modality},
-                        {"format", volume.format},
-                        {"warnings", volume.warnings}});
+std::string encode_volume(const StagedVolume& staged) {
+  const Volume& volume = staged.volume;
+  json value = {{"size", volume.size},
+                {"type", static_cast<int>(volume.type)},
+                {"spacing_mm", volume.spacing_mm},
+                {"origin_mm", volume.origin_mm},
+                {"direction", volume.direction},
+                {"modality", volume.modality},
+                {"format", volume.format},
+                {"warnings", volume.warnings}};
+  if (staged.in_file) {
+    // As numbers: a file name may be bytes that are no text.
+    const std::string& name = staged.in_file->path.native();
+    value["data_path"] = std::vector<std::uint8_t>(name.begin(), name.end());
+    value["data_offset"] = staged.in_file->offset_bytes;
+  }
+  return one_json_line(value);
 }
 
 std::string encode_error(const Error& error) {
@@ -29,14 +37,15 @@ std::string encode_error(const Error& error) {
       {{"error", static_cast<int>(error.code())}, {"where", error.where()}, {"message", error.message()}});
 }
 
-Volume decode_result(const std::string& line) {
+StagedVolume decode_result(const std::string& line) {
   try {
     const json value = json::parse(line);
     if (value.contains("error")) {
       throw Error(static_cast<ErrorCode>(value.at("error").get<int>()), value.at("where"),
                   value.at("message"));
     }
-    Volume volume;
+    StagedVolume staged;
+    Volume& volume = staged.volume;
     volume.size = value.at("size");
     volume.type = static_cast<VoxelType>(value.at("type").get<int>());
     volume.spacing_mm = value.at("spacing_mm");
@@ -45,7 +54,11 @@ Volume decode_result(const std::string& line) {
     volume.modality = value.at("modality");
     volume.format = value.at("format");
     volume.warnings = value.at("warnings").get<std::vector<std::string>>();
-    return volume;
+    if (value.contains("data_path")) {
+      const auto name = value.at("data_path").get<std::vector<std::uint8_t>>();
+      staged.in_file = VoxelsInFile{std::string(name.begin(), name.end()), value.at("data_offset")};
+    }
+    return staged;
   } catch (const json::exception&) {
     throw Error(ErrorCode::kInternal, "", "the reader's answer cannot be understood");
   }

@@ -4,6 +4,8 @@
 
 #include <exception>
 #include <new>
+#include <optional>
+#include <utility>
 
 #include "base/fail.h"
 #include "volume_io/geometry_check.h"
@@ -15,27 +17,32 @@
 namespace voxlume {
 namespace {
 
-Volume read_steps(const std::filesystem::path& path, const ReadOptions& options,
-                  const AllocateVoxels& allocate) {
+StagedVolume read_steps(const std::filesystem::path& path, const ReadOptions& options,
+                        const AllocateVoxels& allocate) {
   const std::unique_ptr<VolumeReader> reader = open_reader(path);
   VolumeHeader header = reader->read_header();
   Volume& volume = header.volume;
   if (options.spacing_mm) volume.spacing_mm = *options.spacing_mm;
   check_geometry(path, volume);
   const std::uint64_t bytes = header.stored_bytes();
+  const std::optional<VoxelsInFile> in_file = reader->voxels_in_file();
+  if (in_file && header.wide == WideInteger::kNone && is_aligned(in_file->offset_bytes, volume.type)) {
+    if (options.memory_limit_bytes > 0) check_memory(path, volume, bytes, options.memory_limit_bytes);
+    return {std::move(volume), in_file};
+  }
   check_memory(path, volume, bytes, options.memory_limit_bytes);
   check_memory(path, volume, bytes + header.working_bytes, 0);
   const std::shared_ptr<void> voxels = allocate(bytes, header.working_bytes);
   reader->read_voxels(voxels.get());
   narrow_wide_integers(path, header.wide, voxels.get(), volume.voxel_count());
   volume.voxels = voxels;
-  return volume;
+  return {std::move(volume), std::nullopt};
 }
 
 }  // namespace
 
-Volume read_staged(const std::filesystem::path& path, const ReadOptions& options,
-                   const AllocateVoxels& allocate) {
+StagedVolume read_staged(const std::filesystem::path& path, const ReadOptions& options,
+                         const AllocateVoxels& allocate) {
   try {
     return read_steps(path, options, allocate);
   } catch (const Error&) {

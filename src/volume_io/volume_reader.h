@@ -2,7 +2,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
+#include "volume_io/file_map.h"
 #include "voxlume/volume.h"
 
 namespace voxlume {
@@ -32,7 +34,10 @@ class VolumeReader {
   virtual ~VolumeReader() = default;
   /// Sizes are >= 1; geometry is as the file has it, not yet checked.
   virtual VolumeHeader read_header() = 0;
-  /// Called once, after read_header. `voxels` has room for stored_bytes() and is zero.
+  /// Where the file itself has the voxels in the header's type and the machine's byte order; none when they
+  /// must be read. To be asked after read_header, which has seen that the file is long enough.
+  virtual std::optional<VoxelsInFile> voxels_in_file() const { return std::nullopt; }
+  /// Called at most once, after read_header. `voxels` has room for stored_bytes() and is zero.
   virtual void read_voxels(void* voxels) = 0;
 };
 

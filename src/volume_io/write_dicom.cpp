@@ -123,6 +123,11 @@ void check_representable(const Volume& volume, const std::filesystem::path& fold
     fail(ErrorCode::kUnsupported, folder,
          fmt::format("{}; DICOM slices are at most 65535 wide", fmt::join(volume.size, "x")));
   }
+  constexpr std::int64_t kMaxSlicePixels = 0x7ffffffe;  // of up to 2 bytes, counted with 32 bits
+  if (volume.size[0] * volume.size[1] > kMaxSlicePixels) {
+    fail(ErrorCode::kUnsupported, folder,
+         fmt::format("{}; a DICOM slice has fewer than 2^31 pixels", fmt::join(volume.size, "x")));
+  }
   if (voxel_bytes(volume.type) > 2) {
     fail(ErrorCode::kUnsupported, folder,
          fmt::format("{} voxels; a DICOM series is written from u8, i8, u16 or i16",

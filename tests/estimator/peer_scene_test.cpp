@@ -17,15 +17,12 @@ Moments forehead(int max_scatter, int spp) {
   description.render.max_scatter = max_scatter;
   const Volume volume = open_volume(description.volume);
   const VolumeStatistics statistics = compute_statistics(make_grid_view(volume));
-  const CompiledScene scene(resolve(description, volume, statistics), volume, statistics);
+  const CompiledScene scene(resolve(as_tested(description), volume, statistics), volume, statistics);
   std::vector<Moments> rows(130);
   parallel_for(130, 1, [&](std::int64_t row) {
     TraceCounters counters;
-    for (int x = 240; x < 370; ++x)
-      for (int s = 0; s < spp; ++s)
-        rows[row].add(luminance(trace_camera_sample(scene.view(), x, static_cast<int>(130 + row),
-                                                    static_cast<std::uint32_t>(s), counters)
-                                    .radiance));
+    for (const double l : row_luminances(scene.view(), 240, 370, static_cast<int>(130 + row), spp, counters))
+      rows[row].add(l);
   });
   Moments total;
   for (const Moments& row : rows) total += row;

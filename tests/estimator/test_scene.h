@@ -1,5 +1,6 @@
 #pragma once
 #include <cmath>
+#include <cstdlib>
 #include <functional>
 #include <vector>
 
@@ -61,6 +62,8 @@ inline SceneDescription dark_scene(int width, int height) {
   scene.image.filter = PixelFilter::kBox;
   scene.image.filter_radius_px = 0.5;
   scene.transfer.reference_length_mm = 1;
+  // Independent samples: their spread tells the error of their mean.
+  scene.render.sampler = Sampler::kRandom;
   return scene;
 }
 
@@ -117,22 +120,37 @@ struct Estimate {
   }
 };
 
+/// The accelerator and instruction set that the whole program is run with, from VOXLUME_TEST_ACCELERATOR and
+/// VOXLUME_TEST_SIMD; each test program is run once for each.
+inline SceneDescription as_tested(SceneDescription description) {
+  if (const char* name = std::getenv("VOXLUME_TEST_ACCELERATOR")) description.render.accelerator = name;
+  if (const char* name = std::getenv("VOXLUME_TEST_SIMD")) description.render.simd = name;
+  return description;
+}
+
+/// Luminances of samples [0, spp) of pixels [x0, x1) of a row.
+inline std::vector<double> row_luminances(const SceneView& scene, int x0, int x1, int y, int spp,
+                                          TraceCounters& counters) {
+  std::vector<PixelSample> samples(static_cast<std::size_t>(x1 - x0) * spp);
+  trace_tile(scene, {x0, y, x1, y + 1}, 0, spp, samples, counters);
+  std::vector<double> out;
+  for (const PixelSample& sample : samples) out.push_back(luminance(sample.radiance));
+  return out;
+}
+
 /// Traces `spp` samples of every pixel.
 inline Estimate estimate(const SceneDescription& description, const Volume& volume, int spp) {
   const VolumeStatistics statistics = compute_statistics(make_grid_view(volume));
-  const CompiledScene scene(resolve(description, volume, statistics), volume, statistics);
+  const CompiledScene scene(resolve(as_tested(description), volume, statistics), volume, statistics);
   Estimate out;
   out.width = description.image.width;
   out.height = description.image.height;
   out.pixels.resize(static_cast<std::size_t>(out.width) * out.height);
   std::vector<TraceCounters> counters(out.height);
   parallel_for(out.height, 1, [&](std::int64_t y) {
-    for (int x = 0; x < out.width; ++x)
-      for (int s = 0; s < spp; ++s)
-        out.pixels[y * out.width + x].add(
-            luminance(trace_camera_sample(scene.view(), x, static_cast<int>(y), static_cast<std::uint32_t>(s),
-                                          counters[y])
-                          .radiance));
+    const std::vector<double> row =
+        row_luminances(scene.view(), 0, out.width, static_cast<int>(y), spp, counters[y]);
+    for (std::size_t i = 0; i < row.size(); ++i) out.pixels[y * out.width + i / spp].add(row[i]);
   });
   for (const TraceCounters& c : counters) out.counters += c;
   return out;

@@ -44,6 +44,8 @@ inline SceneDescription full_scene() {
   s.render.hierarchy_rule = "thresholds";
   s.render.lookup_cost = 4;
   s.render.hierarchy_thresholds = {0.25, 2};
+  s.render.sampler = Sampler::kRandom;
+  s.render.light_samples = 2;
   s.render.simd = "scalar";
   s.render.light_sampling = "light";
   return s;

@@ -148,7 +148,7 @@ TEST(Transmittances, SmallOnesAreUnbiasedUnderRoulette) {
       mu_t_function({{0, 0}, {2, 2}}), kGlobal);
   test::Moments ratio;
   TrackingCounters counters;
-  for (int n = 0; n < 400000; ++n) {
+  for (int n = 0; n < 1200000; ++n) {
     Rng rng(65, 0, 0, static_cast<std::uint32_t>(n));
     ratio.add(estimate_transmittance(tracked.medium, {{{0, 5, 1}, {1, 0, 0}}, 0, 9}, rng, counters));
   }

@@ -32,10 +32,11 @@ TEST(Isolation, MemoryLimitIsCheckedBeforeAnythingIsAllocated) {
 
 TEST(Isolation, MoreThanTheMachineHasIsRefused) {
   const TemporaryFolder folder;
-  // A sparse data file holds what the header promises: only memory stands in the way.
+  // A sparse data file holds what the header promises: only memory stands in the way, as the byte order
+  // forces a copy.
   write_bytes(folder / "a.mhd",
-              "ObjectType = Image\nNDims = 3\nDimSize = 65536 8192 8192\nElementType = "
-              "MET_UCHAR\nElementDataFile = a.raw\n");
+              "ObjectType = Image\nNDims = 3\nDimSize = 32768 8192 8192\nElementType = "
+              "MET_USHORT\nBinaryDataByteOrderMSB = True\nElementDataFile = a.raw\n");
   write_bytes(folder / "a.raw", "");
   fs::resize_file(folder / "a.raw", 1ull << 42);
   expect_error(ErrorCode::kOutOfMemory, "need 4398.0 GB of memory", [&] { read_volume(folder / "a.mhd"); });

@@ -1,0 +1,172 @@
+// Included once for every instruction set; hence no include guard of the usual kind.
+#if defined(VOXLUME_INTEGRATOR_PRIMARY_RAY_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef VOXLUME_INTEGRATOR_PRIMARY_RAY_INL_H_
+#undef VOXLUME_INTEGRATOR_PRIMARY_RAY_INL_H_
+#else
+#define VOXLUME_INTEGRATOR_PRIMARY_RAY_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <numbers>
+
+#include "integrator/primary_ray.h"
+#include "sampling/vector_random-inl.h"
+#include "sampling/warp.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace voxlume {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+#if HWY_TARGET != HWY_SCALAR
+
+class PrimaryRayVector {
+ public:
+  PrimaryRayVector(const SceneView& scene, PrimaryRayBatch& batch) : scene_(scene), batch_(batch) {}
+
+  void fill() {
+    for (std::size_t v = 0; v < PrimaryRayBatch::kCount; v += hn::MaxLanes(kF)) fill(v);
+  }
+
+ private:
+  static constexpr hn::CappedTag<float, 16> kF{};
+  static constexpr hn::RebindToSigned<decltype(kF)> kI{};
+  static constexpr hn::RebindToUnsigned<decltype(kF)> kU{};
+  using F = hn::Vec<decltype(kF)>;
+  struct Vec {
+    F x, y, z;
+    F& operator[](int a) { return a == 0 ? x : a == 1 ? y : z; }
+  };
+
+  static F set(float x) { return hn::Set(kF, x); }
+  static Vec scaled(Vec3f v, F s) {
+    return {hn::Mul(set(v.x), s), hn::Mul(set(v.y), s), hn::Mul(set(v.z), s)};
+  }
+  static Vec add(Vec a, Vec b) { return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)}; }
+  static Vec broadcast(Vec3f v) { return {set(v.x), set(v.y), set(v.z)}; }
+  static Vec linear(const Affinef& m, const Vec& v) {
+    return add(add(scaled(m.column_x, v.x), scaled(m.column_y, v.y)), scaled(m.column_z, v.z));
+  }
+  static void store(const Vec& from, PrimaryRayBatch::Column<float> (&to)[3], std::size_t v) {
+    hn::Store(from.x, kF, to[0].data() + v);
+    hn::Store(from.y, kF, to[1].data() + v);
+    hn::Store(from.z, kF, to[2].data() + v);
+  }
+
+  static F inverse_erf(F x) {
+    const F one = set(1.0f);
+    const F w = vector_negative_log(kF, hn::Mul(hn::Sub(one, x), hn::Add(one, x)));
+    const auto centre = hn::Lt(w, set(kErfSplit));
+    const F s = hn::IfThenElse(centre, hn::Sub(w, set(2.5f)), hn::Sub(hn::Sqrt(w), set(3.0f)));
+    F p = hn::IfThenElse(centre, set(kErfCentre[0]), set(kErfTail[0]));
+    for (int i = 1; i < 9; ++i)
+      p = hn::Add(hn::IfThenElse(centre, set(kErfCentre[i]), set(kErfTail[i])), hn::Mul(p, s));
+    return hn::Mul(p, x);
+  }
+
+  F sample_filter(F u) const {
+    const F centred = hn::Sub(hn::Mul(set(2.0f), u), set(1.0f));
+    const float radius_px = scene_.filter_radius_px;
+    if (scene_.filter == PixelFilter::kBox) return hn::Mul(set(radius_px), centred);
+    const float sigma = radius_px * (1.0f / 3.0f);
+    const F offset =
+        hn::Mul(set(sigma * std::numbers::sqrt2_v<float>), inverse_erf(hn::Mul(centred, set(kErfOfCut))));
+    return hn::Min(hn::Max(offset, set(-radius_px)), set(radius_px));
+  }
+
+  /// clip_ray: cuts [t_near, t_far] to `box`, or makes it empty.
+  static void clip(const Box3f& box, Vec origin, Vec direction, F& t_near, F& t_far) {
+    auto misses = hn::Lt(set(0.0f), set(0.0f));
+    F near = t_near, far = t_far;
+    for (int a = 0; a < 3; ++a) {
+      const F o = origin[a], d = direction[a], lower = set(box.lower[a]), upper = set(box.upper[a]);
+      const auto still = hn::Eq(d, hn::Zero(kF));
+      misses = hn::Or(misses, hn::And(still, hn::Or(hn::Lt(o, lower), hn::Gt(o, upper))));
+      const F inverse = hn::Div(set(1.0f), hn::IfThenElse(still, set(1.0f), d));
+      const F t0 = hn::Mul(hn::Sub(lower, o), inverse), t1 = hn::Mul(hn::Sub(upper, o), inverse);
+      near = hn::IfThenElse(still, near, hn::Max(near, hn::Min(t0, t1)));
+      far = hn::IfThenElse(still, far, hn::Min(far, hn::Max(t0, t1)));
+    }
+    t_near = hn::IfThenElse(misses, set(1.0f), near);
+    t_far = hn::IfThenElse(misses, set(0.0f), far);
+  }
+
+  void fill(std::size_t v) {
+    const auto x = hn::Load(kI, batch_.x.data() + v), y = hn::Load(kI, batch_.y.data() + v);
+    const auto pixel = hn::Add(hn::Mul(y, hn::Set(kI, scene_.width)), x);
+    const auto sample = hn::BitCast(kU, hn::Load(kI, batch_.sample.data() + v));
+    const std::uint32_t picture = sobol_picture_seed(scene_.seed, scene_.frame);
+    const auto pixel_seed = vector_mix_bits(kU, hn::Xor(hn::BitCast(kU, pixel), hn::Set(kU, picture)));
+    auto rng = seed_vector_rng(kF, scene_.seed, scene_.frame, hn::BitCast(kU, pixel), sample);
+    F image0, image1, u_flight = set(-1.0f), u_light = set(-1.0f);
+    if (scene_.sampler == Sampler::kSobol) {
+      vector_sobol_pair(kF, pixel_seed, sample, SobolPair::kImage, image0, image1);
+      vector_sobol_pair(kF, pixel_seed, sample, SobolPair::kFirstFlight, u_flight, u_light);
+    } else {
+      image0 = rng.next(kF);
+      image1 = rng.next(kF);
+      rng.next(kF);  // the lens
+      rng.next(kF);
+    }
+    const F half = set(0.5f);
+    const F px = hn::Add(hn::Add(hn::ConvertTo(kF, x), half), sample_filter(image0));
+    const F py = hn::Add(hn::Add(hn::ConvertTo(kF, y), half), sample_filter(image1));
+    hn::Store(pixel_seed, kU, batch_.pixel_seed.data() + v);
+    hn::Store(u_flight, kF, batch_.u_flight.data() + v);
+    hn::Store(u_light, kF, batch_.u_light.data() + v);
+    hn::Store(rng.s0, kU, batch_.rng[0].data() + v);
+    hn::Store(rng.s1, kU, batch_.rng[1].data() + v);
+    hn::Store(rng.s2, kU, batch_.rng[2].data() + v);
+    hn::Store(rng.s3, kU, batch_.rng[3].data() + v);
+    hn::Store(px, kF, batch_.px.data() + v);
+    hn::Store(py, kF, batch_.py.data() + v);
+
+    const CameraView& camera = scene_.camera;
+    const F one = set(1.0f), two = set(2.0f);
+    const F across =
+        hn::Mul(hn::Sub(hn::Div(hn::Mul(two, px), set(camera.width_px)), one), set(camera.half_width));
+    const F along =
+        hn::Mul(hn::Sub(one, hn::Div(hn::Mul(two, py), set(camera.height_px))), set(camera.half_height));
+    const Vec offset = add(scaled(camera.right, across), scaled(camera.up, along));
+    Vec origin = broadcast(camera.eye_mm), direction = broadcast(camera.forward);
+    if (camera.orthographic)
+      origin = add(origin, offset);
+    else
+      direction = add(direction, offset);
+    const F norm2 = hn::Add(hn::Add(hn::Mul(direction.x, direction.x), hn::Mul(direction.y, direction.y)),
+                            hn::Mul(direction.z, direction.z));
+    const F inverse_length = hn::Div(one, hn::Sqrt(norm2));
+    for (int a = 0; a < 3; ++a) direction[a] = hn::Mul(direction[a], inverse_length);
+
+    const Affinef& index = scene_.medium.grid.index_from_world;
+    const Vec origin_index = add(linear(index, origin), broadcast(index.translation));
+    const Vec direction_index = linear(index, direction);
+    F t_near = hn::Zero(kF), t_far = set(std::numeric_limits<float>::infinity());
+    clip(scene_.domain_index, origin_index, direction_index, t_near, t_far);
+    F clip_near = t_near, clip_far = t_far;
+    clip(scene_.clip_world, origin, direction, clip_near, clip_far);
+    const auto enters = hn::Lt(t_near, t_far);
+    hn::Store(hn::IfThenElse(enters, clip_near, t_near), kF, batch_.t_near.data() + v);
+    hn::Store(hn::IfThenElse(enters, clip_far, t_far), kF, batch_.t_far.data() + v);
+    store(origin, batch_.origin_world, v);
+    store(direction, batch_.direction_world, v);
+    store(origin_index, batch_.origin_index, v);
+    store(direction_index, batch_.direction_index, v);
+  }
+
+  const SceneView& scene_;
+  PrimaryRayBatch& batch_;
+};
+
+inline void fill_primary_rays(const SceneView& scene, PrimaryRayBatch& batch) {
+  PrimaryRayVector(scene, batch).fill();
+}
+
+#endif
+
+}  // namespace HWY_NAMESPACE
+}  // namespace voxlume
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,75 @@
+#include "base/vector_targets.h"
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "integrator/primary_ray.cpp"
+#include <hwy/foreach_target.h>
+
+#include "integrator/primary_ray-inl.h"
+
+#if HWY_ONCE
+
+#include <limits>
+
+#include "sampling/sobol.h"
+#include "sampling/warp.h"
+
+namespace voxlume {
+
+PrimaryRay make_primary_ray(const SceneView& scene, int x, int y, std::uint32_t sample) noexcept {
+  const std::uint32_t pixel =
+      static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(scene.width) + static_cast<std::uint32_t>(x);
+  PrimaryRay out{};
+  out.rng = Rng(scene.seed, scene.frame, pixel, sample);
+  out.pixel_seed = sobol_pixel_seed(scene.seed, scene.frame, pixel);
+  out.sample = sample;
+  UnitPair image, lens, flight{-1, -1};
+  if (scene.sampler == Sampler::kSobol) {
+    image = sobol_pair(out.pixel_seed, sample, SobolPair::kImage);
+    lens = scene.camera.aperture_radius_mm > 0 ? sobol_pair(out.pixel_seed, sample, SobolPair::kLens)
+                                               : UnitPair{};
+    flight = sobol_pair(out.pixel_seed, sample, SobolPair::kFirstFlight);
+  } else {
+    image.u0 = out.rng.next();
+    image.u1 = out.rng.next();
+    lens.u0 = out.rng.next();
+    lens.u1 = out.rng.next();
+  }
+  out.u_light = flight.u1;
+  out.px = x + 0.5f + sample_filter(scene.filter, scene.filter_radius_px, image.u0);
+  out.py = y + 0.5f + sample_filter(scene.filter, scene.filter_radius_px, image.u1);
+  const CameraRay camera = camera_ray(scene.camera, out.px, out.py, lens.u0, lens.u1);
+  out.origin_world = camera.origin;
+  out.direction_world = camera.direction;
+  const bool clipped = true;
+  out.track =
+      visible_part(scene, camera.origin, camera.direction, std::numeric_limits<float>::infinity(), clipped);
+  out.track.first_u = flight.u0;
+  out.enters = out.track.t_near < out.track.t_far;
+  return out;
+}
+
+FillPrimaryRays vector_primary_rays(SimdTarget target, const CameraView& camera) {
+  if (camera.aperture_radius_mm > 0) return nullptr;
+  switch (target) {
+#if HWY_TARGETS & HWY_AVX3
+    case SimdTarget::kAvx512:
+      return &N_AVX3::fill_primary_rays;
+#endif
+#if HWY_TARGETS & HWY_AVX2
+    case SimdTarget::kAvx2:
+      return &N_AVX2::fill_primary_rays;
+#endif
+#if HWY_TARGETS & HWY_SSE4
+    case SimdTarget::kSse4:
+      return &N_SSE4::fill_primary_rays;
+#endif
+#if HWY_TARGETS & HWY_NEON
+    case SimdTarget::kNeon:
+      return &N_NEON::fill_primary_rays;
+#endif
+    default:
+      return nullptr;
+  }
+}
+
+}  // namespace voxlume
+#endif  // HWY_ONCE

@@ -1,0 +1,204 @@
+// Every instruction set gives the picture of the scalar code, to the last bit, in every mode of the renderer.
+#include <gtest/gtest.h>
+
+#include "integrator/primary_ray.h"
+#include "test_scene.h"
+
+namespace voxlume::test {
+namespace {
+
+constexpr SimdTarget kTargets[] = {SimdTarget::kSse4, SimdTarget::kAvx2, SimdTarget::kAvx512,
+                                   SimdTarget::kNeon};
+
+Volume bumps() {
+  return make_volume({26, 24, 22}, 1.5, [](Vec3d p) {
+    return 1.3 - length(p) / 14 + 0.25 * std::sin(1.1 * p.x) * std::cos(0.9 * p.y + 0.5 * p.z);
+  });
+}
+
+SceneDescription base_scene() {
+  SceneDescription scene = dark_scene(23, 19);
+  scene.camera.projection = Projection::kPerspective;
+  scene.environment->intensity = 0.7;
+  scene.lights = {directional({-0.4, -1, 0.5}, 2)};
+  LightDescription area;
+  area.kind = LightKind::kRect;
+  area.position_mm = Double3{20, -60, 30};
+  area.target_mm = Double3{0, 0, 0};
+  area.size_mm = {20, 30};
+  area.intensity = 5;
+  scene.lights->push_back(area);
+  scene.transfer.points = {point(0.2, 0, grey(0.9f)), point(0.5, 0.4, grey(0.7f), grey(0.01f)),
+                           point(0.9, 6, {{0.9f, 0.5f, 0.3f}})};
+  return scene;
+}
+
+struct Mode {
+  const char* name;
+  void (*set)(SceneDescription&);
+};
+
+const Mode kModes[] = {
+    {"coexistence", [](SceneDescription&) {}},
+    {"exposure render", [](SceneDescription& s) { s.material.shading = Shading::kExposureRender; }},
+    {"phase", [](SceneDescription& s) { s.material.shading = Shading::kPhase; }},
+    {"brdf", [](SceneDescription& s) { s.material.shading = Shading::kBrdf; }},
+    {"no limit", [](SceneDescription& s) { s.render.max_scatter = 0; }},
+    {"one scattering", [](SceneDescription& s) { s.render.max_scatter = 1; }},
+    {"light sampling", [](SceneDescription& s) { s.render.light_sampling = "light"; }},
+    {"direction sampling", [](SceneDescription& s) { s.render.light_sampling = "direction"; }},
+    {"sobol", [](SceneDescription& s) { s.render.sampler = Sampler::kSobol; }},
+    {"sobol, three light samples",
+     [](SceneDescription& s) {
+       s.render.sampler = Sampler::kSobol;
+       s.render.light_samples = 3;
+     }},
+    {"lens",
+     [](SceneDescription& s) {
+       s.render.sampler = Sampler::kSobol;
+       s.camera.aperture_radius_mm = 2;
+     }},
+    {"orthographic", [](SceneDescription& s) { s.camera.projection = Projection::kOrthographic; }},
+    {"gaussian filter",
+     [](SceneDescription& s) {
+       s.image.filter = PixelFilter::kGaussian;
+       s.image.filter_radius_px = 1.5;
+     }},
+    {"clip",
+     [](SceneDescription& s) {
+       s.clip = ClipDescription{{-9, 7}, {-12, 30}, {-30, 8}};
+     }},
+    {"clip that blocks light",
+     [](SceneDescription& s) {
+       s.clip = ClipDescription{{-9, 7}, {-12, 30}, {-30, 8}};
+       s.clip->blocks_light = true;
+     }},
+    {"cells of 1", [](SceneDescription& s) { s.render.macrocell_voxels = 1; }},
+    {"cells of 5", [](SceneDescription& s) { s.render.macrocell_voxels = 5; }},
+};
+
+std::unique_ptr<CompiledScene> compile(SceneDescription description, const Volume& volume,
+                                       SimdTarget target) {
+  description.render.simd = simd_name(target);
+  const VolumeStatistics statistics = compute_statistics(make_grid_view(volume));
+  return std::make_unique<CompiledScene>(resolve(description, volume, statistics), volume, statistics);
+}
+
+struct Traced {
+  std::vector<PixelSample> samples;
+  TraceCounters counters;
+};
+
+Traced trace(const CompiledScene& scene, int spp) {
+  const SceneView& view = scene.view();
+  const TileRect tile{0, 0, view.width, view.height};
+  Traced out;
+  out.samples.resize(static_cast<std::size_t>(tile.pixel_count()) * spp);
+  trace_tile(view, tile, 3, 3 + spp, out.samples, out.counters);
+  return out;
+}
+
+TEST(Simd, EveryModeIsTheScalarPicture) {
+  const Volume volume = bumps();
+  int compared = 0;
+  for (const Mode& mode : kModes) {
+    SceneDescription scene = base_scene();
+    mode.set(scene);
+    const Traced expected = trace(*compile(scene, volume, SimdTarget::kScalar), 6);
+    double sum = 0;
+    for (const PixelSample& s : expected.samples) sum += luminance(s.radiance);
+    EXPECT_GT(sum, 1) << mode.name;
+    for (const SimdTarget target : kTargets) {
+      if (!has_simd_target(target)) continue;
+      const auto compiled = compile(scene, volume, target);
+      ASSERT_EQ(compiled->view().simd, target);
+      const Traced traced = trace(*compiled, 6);
+      EXPECT_EQ(traced.counters, expected.counters) << mode.name << ", " << simd_name(target);
+      EXPECT_EQ(traced.counters.majorant_violations, 0u);
+      std::size_t differing = 0;
+      for (std::size_t i = 0; i < traced.samples.size(); ++i) {
+        const PixelSample &a = traced.samples[i], &b = expected.samples[i];
+        differing += !(a.radiance == b.radiance && a.alpha == b.alpha && a.albedo == b.albedo &&
+                       a.normal == b.normal && a.depth_mm == b.depth_mm);
+      }
+      EXPECT_EQ(differing, 0u) << mode.name << ", " << simd_name(target);
+      ++compared;
+    }
+  }
+  if (compared == 0) GTEST_SKIP() << "this machine has no vector target";
+}
+
+TEST(Simd, PrimaryRaysAreTheScalarOnes) {
+  const Volume volume = bumps();
+  for (const Mode& mode : kModes) {
+    SceneDescription description = base_scene();
+    mode.set(description);
+    const auto scene = compile(description, volume, SimdTarget::kScalar);
+    for (const SimdTarget target : kTargets) {
+      const FillPrimaryRays fill =
+          has_simd_target(target) ? vector_primary_rays(target, scene->view().camera) : nullptr;
+      if (!fill) continue;
+      PrimaryRayBatch batch;
+      int entering = 0;
+      for (int n = 0; n < 40; ++n) {
+        for (int i = 0; i < PrimaryRayBatch::kCount; ++i) {
+          batch.x[i] = (n * 7 + i * 3) % 23;
+          batch.y[i] = (n * 5 + i) % 19;
+          batch.sample[i] = n * 1000 + i;
+        }
+        fill(scene->view(), batch);
+        for (int i = 0; i < PrimaryRayBatch::kCount; ++i) {
+          const PrimaryRay a = batch.at(i), b = make_primary_ray(scene->view(), batch.x[i], batch.y[i],
+                                                                 static_cast<std::uint32_t>(batch.sample[i]));
+          ASSERT_EQ(a.rng.state(), b.rng.state()) << mode.name;
+          ASSERT_EQ(a.pixel_seed, b.pixel_seed);
+          ASSERT_EQ(a.sample, b.sample);
+          ASSERT_EQ(a.u_light, b.u_light);
+          ASSERT_EQ(a.px, b.px);
+          ASSERT_EQ(a.py, b.py);
+          ASSERT_EQ(a.origin_world, b.origin_world);
+          ASSERT_EQ(a.direction_world, b.direction_world);
+          ASSERT_EQ(a.enters, b.enters) << mode.name;
+          ASSERT_EQ(a.track.first_u, b.track.first_u);
+          if (!a.enters) continue;
+          ++entering;
+          ASSERT_EQ(a.track.t_near, b.track.t_near);
+          ASSERT_EQ(a.track.t_far, b.track.t_far);
+          ASSERT_EQ(a.track.ray.origin_index, b.track.ray.origin_index);
+          ASSERT_EQ(a.track.ray.direction_index, b.track.ray.direction_index);
+        }
+      }
+      EXPECT_GT(entering, 100) << mode.name;
+    }
+  }
+}
+
+TEST(Sampling, SobolHasTheMeanOfRandomAndLessVariance) {
+  const Volume volume = bumps();
+  SceneDescription scene = base_scene();
+  // Means of 16 samples of a pixel, over pixels and seeds.
+  const auto means = [&](Sampler sampler) {
+    Moments total, spread;
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+      scene.render.sampler = sampler;
+      scene.render.seed = seed + (sampler == Sampler::kSobol ? 100 : 0);
+      const Estimate e = estimate(scene, volume, 16);
+      double mean = 0;
+      for (const Moments& pixel : e.pixels) mean += pixel.mean() / static_cast<double>(e.pixels.size());
+      total.add(mean);
+      scene.render.seed += 1000;
+      const Estimate f = estimate(scene, volume, 16);
+      for (std::size_t i = 0; i < e.pixels.size(); ++i)
+        spread.add(0.5 * (e.pixels[i].mean() - f.pixels[i].mean()) *
+                   (e.pixels[i].mean() - f.pixels[i].mean()));
+    }
+    return std::pair{total, spread.mean()};
+  };
+  const auto [sobol, sobol_variance] = means(Sampler::kSobol);
+  const auto [random, random_variance] = means(Sampler::kRandom);
+  EXPECT_LT(std::abs(welch_z(sobol, random)), 4);
+  EXPECT_LT(sobol_variance, 0.9 * random_variance);
+}
+
+}  // namespace
+}  // namespace voxlume::test
