@@ -3,7 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "accel/majorant_grid.h"
+#include "accel/hierarchy.h"
 #include "cli/commands.h"
 #include "cli/scene_flags.h"
 #include "cli/terminal.h"
@@ -33,9 +33,9 @@ std::string orientation_code(const Volume& volume) {
   return code;
 }
 
-/// Voxels, and the value range (two floats) and majorant (one) of every macrocell. The film comes on top.
+/// Voxels, and the value range (two floats) and majorant (one) of every finest cell. The film comes on top.
 std::size_t render_bytes(const Volume& volume, const GridView& grid) {
-  const int edge = default_macrocell_voxels(grid);
+  const int edge = default_hierarchy_voxels(grid);
   std::size_t cells = 1;
   for (const auto n : volume.size) cells *= static_cast<std::size_t>((n + edge - 1) / edge + 1);
   return volume.byte_count() + cells * 3 * sizeof(float);

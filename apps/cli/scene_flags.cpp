@@ -173,7 +173,7 @@ constexpr Row kRows[] = {
      "mis, light or direction: how scatterings gather light"},
     {"--denoise", "NAME", "/render/denoise", "none"},
     {"--simd", "NAME", "/render/simd", "auto or scalar"},
-    {"--accel", "NAME", "/render/accelerator", "auto, none, macrocell or hierarchy"},
+    {"--accel", "NAME", "/render/accelerator", "auto, none, macrocell, octree, hierarchy or residency"},
     {"--important", "RANGE", "/render", "Not built yet", not_built},
     {"--visibility", "P,Q,R,LAMBDA", "/render", "Not built yet", not_built},
     {"--visibility-lights", "NAME", "/render", "off (first, all: not built yet)", apply_visibility_lights},

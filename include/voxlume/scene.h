@@ -165,9 +165,14 @@ struct RenderDescription {
   std::uint64_t seed = 0;
   std::uint32_t frame = 0;
   int max_scatter = 2;               ///< 0 is without limit, ended by Russian roulette
-  std::string accelerator = "auto";  ///< auto none macrocell hierarchy
+  std::string accelerator = "auto";  ///< auto none macrocell octree hierarchy residency; auto is hierarchy
   int macrocell_voxels = 0;          ///< edge of the finest cells; 0 chooses
-  double lookup_cost = 2.5;          ///< of the hierarchy: a data look-up in units of a cell crossing
+  /// What joins the hierarchy's cells to larger ones: their "cost", or "thresholds" of their majorant.
+  std::string hierarchy_rule = "cost";
+  double lookup_cost = 2.5;  ///< rule cost: a data look-up in units of a cell crossing
+  /// Rule thresholds, in collisions over a finest cell's edge: thinner cells are left for larger ones, larger
+  /// ones that are denser for their parts.
+  std::array<double, 2> hierarchy_thresholds{0.1, 1};
   Sampler sampler = Sampler::kSobol;
   int light_samples = 1;      ///< shadow rays at the first scattering of a path
   std::string simd = "auto";  ///< auto scalar

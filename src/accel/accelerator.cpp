@@ -3,14 +3,22 @@
 namespace voxlume {
 
 Accelerator::Structure Accelerator::build(const GridView& grid, const AcceleratorChoice& choice) {
-  const int given = choice.cell_voxels;
+  const auto voxels = [&](int own_choice) {
+    return choice.cell_voxels > 0 ? choice.cell_voxels : own_choice;
+  };
   switch (choice.kind) {
     case AcceleratorKind::kMacrocell:
-      return MajorantGrid(grid, given > 0 ? given : default_macrocell_voxels(grid));
+      return MajorantGrid(grid, voxels(default_macrocell_voxels(grid)));
+    case AcceleratorKind::kSkippingOctree:
+      return SkippingOctree(grid, voxels(default_macrocell_voxels(grid)));
+    case AcceleratorKind::kThresholdOctree:
+      return ThresholdOctree(grid, voxels(default_hierarchy_voxels(grid)), choice.thresholds);
+    case AcceleratorKind::kResidency:
+      return ResidencyOctree(grid, voxels(default_brick_voxels(grid)));
     case AcceleratorKind::kHierarchy:
       break;
   }
-  return MajorantHierarchy(grid, given > 0 ? given : default_hierarchy_voxels(grid), choice.costs);
+  return MajorantHierarchy(grid, voxels(default_hierarchy_voxels(grid)), choice.costs);
 }
 
 Accelerator::Accelerator(const GridView& grid, const AcceleratorChoice& choice)

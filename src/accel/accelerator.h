@@ -4,13 +4,16 @@
 #include "accel/accelerator_view.h"
 #include "accel/hierarchy.h"
 #include "accel/majorant_grid.h"
+#include "accel/octree.h"
+#include "accel/residency.h"
 
 namespace voxlume {
 
 struct AcceleratorChoice {
   AcceleratorKind kind = AcceleratorKind::kHierarchy;
-  int cell_voxels = 0;  ///< edge of the finest cells; 0: the kind's own choice
-  HierarchyCosts costs;
+  int cell_voxels = 0;          ///< edge of the finest cells; 0: the kind's own choice
+  HierarchyCosts costs;         ///< kHierarchy
+  OctreeThresholds thresholds;  ///< kThresholdOctree
 };
 
 /// Bounds of the extinction of one volume, by the chosen structure. Its value ranges are built once; update()
@@ -23,7 +26,8 @@ class Accelerator {
   AcceleratorView view() const;
 
  private:
-  using Structure = std::variant<MajorantGrid, MajorantHierarchy>;
+  using Structure =
+      std::variant<MajorantGrid, MajorantHierarchy, SkippingOctree, ThresholdOctree, ResidencyOctree>;
   static Structure build(const GridView& grid, const AcceleratorChoice& choice);
   Structure structure_;
 };

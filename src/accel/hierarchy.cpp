@@ -1,20 +1,33 @@
 #include "accel/hierarchy.h"
 
+#include <limits>
+
+#include "accel/majorant_grid.h"
 #include "base/parallel.h"
 
 namespace voxlume {
 namespace {
 
-// Covers what the look-up's own rounding can add to the supremum.
-constexpr float kSafety = 1 + 1e-4f;
 constexpr std::int32_t kSide = BlockCube::kSide;
+static_assert(kSide == kCubeSide);
 
 std::int64_t volume_of(const std::int32_t (&n)[3]) { return std::int64_t{n[0]} * n[1] * n[2]; }
+
+/// The place of item `index` in a grid of n, i fastest.
+struct Place {
+  std::int32_t i, j, k;
+  Place(std::int64_t index, const std::int32_t (&n)[3])
+      : i(static_cast<std::int32_t>(index % n[0])),
+        j(static_cast<std::int32_t>(index / n[0] % n[1])),
+        k(static_cast<std::int32_t>(index / n[0] / n[1])) {}
+};
 
 }  // namespace
 
 MajorantHierarchy::MajorantHierarchy(const GridView& grid, int cell_voxels, HierarchyCosts costs)
-    : ranges_(build_value_ranges(grid, cell_voxels)), costs_(costs), domain_(grid.index_box()) {
+    : ranges_(build_value_ranges(grid, cell_voxels, CellOrder::kCubes)),
+      costs_(costs),
+      domain_(grid.index_box()) {
   Vec3f edge_mm;
   std::size_t words = 1;
   for (int a = 0; a < 3; ++a) {
@@ -27,75 +40,118 @@ MajorantHierarchy::MajorantHierarchy(const GridView& grid, int cell_voxels, Hier
   chord_mm_ = 2 * edge_mm.x * edge_mm.y * edge_mm.z /
               (edge_mm.x * edge_mm.y + edge_mm.y * edge_mm.z + edge_mm.z * edge_mm.x);
   words_.resize(words);
-  cube_tops_.resize(static_cast<std::size_t>(volume_of(cubes_)));
+  table_.resize(static_cast<std::size_t>(volume_of(cubes_)));
+  parallel_for(volume_of(cubes_), 64, [&](std::int64_t cube) {
+    ValueRange all{std::numeric_limits<float>::max(), std::numeric_limits<float>::lowest()};
+    for (const ValueRange* r = &ranges_.ranges[cube * kCubeCells];
+         r != &ranges_.ranges[cube * kCubeCells] + kCubeCells; ++r)
+      all = {std::min(all.lower, r->lower), std::max(all.upper, r->upper)};
+    table_[cube].values = all;
+  });
 }
 
 void MajorantHierarchy::update(const TransferFunction& transfer) {
-  parallel_for(volume_of(cubes_), 16,
-               [&](std::int64_t cube) { cube_tops_[cube] = join_cube(cube, transfer); });
-  parallel_for(volume_of(super_cubes_), 1, [&](std::int64_t super_cube) { join_cubes(super_cube); });
+  const ValueRange changed = changed_values(maximum_, transfer.range_maximum());
+  maximum_ = transfer.range_maximum();
+  std::vector<std::int64_t> cubes, super_cubes;
+  std::vector<bool> touched(static_cast<std::size_t>(volume_of(super_cubes_)));
+  for (std::int64_t cube = 0; cube < volume_of(cubes_); ++cube) {
+    const ValueRange& values = table_[cube].values;
+    if (values.upper < changed.lower || values.lower > changed.upper) continue;
+    cubes.push_back(cube);
+    const std::int64_t super_cube = super_cube_of(cube);
+    if (touched[super_cube]) continue;
+    touched[super_cube] = true;
+    super_cubes.push_back(super_cube);
+  }
+  if (cubes.empty()) return;
+  parallel_for(static_cast<std::int64_t>(cubes.size()), 8, [&](std::int64_t n) { join_cells(cubes[n]); });
+  parallel_for(static_cast<std::int64_t>(super_cubes.size()), 1,
+               [&](std::int64_t n) { join_cubes(super_cubes[n]); });
   fill_ring();
 }
 
 MajorantHierarchy::CellBox MajorantHierarchy::cells_of(std::int64_t cube) const {
-  const std::int32_t at[3] = {static_cast<std::int32_t>(cube % cubes_[0]),
-                              static_cast<std::int32_t>(cube / cubes_[0] % cubes_[1]),
-                              static_cast<std::int32_t>(cube / cubes_[0] / cubes_[1])};
-  CellBox box;
-  for (int a = 0; a < 3; ++a) {
-    box.lower[a] = at[a] * kSide;
-    box.upper[a] = std::min(box.lower[a] + kSide, ranges_.cells[a]);
-  }
+  const Place at(cube, cubes_);
+  CellBox box{{at.i * kSide, at.j * kSide, at.k * kSide}, {}};
+  for (int a = 0; a < 3; ++a) box.upper[a] = std::min(box.lower[a] + kSide, ranges_.cells[a]);
   return box;
 }
 
-Block MajorantHierarchy::join_cube(std::int64_t cube, const TransferFunction& transfer) {
-  BlockCube blocks;
-  const CellBox box = cells_of(cube);
-  const JoinRule cell_rule{costs_.lookup, chord_mm_};
-  const auto each_cell = [&](auto&& visit) {
-    for (std::int32_t k = box.lower[2]; k < box.upper[2]; ++k)
-      for (std::int32_t j = box.lower[1]; j < box.upper[1]; ++j)
-        for (std::int32_t i = box.lower[0]; i < box.upper[0]; ++i)
-          visit(i, j, k, i - box.lower[0], j - box.lower[1], k - box.lower[2]);
-  };
-  each_cell([&](std::int32_t i, std::int32_t j, std::int32_t k, int x, int y, int z) {
-    const ValueRange range =
-        ranges_.ranges[(static_cast<std::size_t>(k) * ranges_.cells[1] + j) * ranges_.cells[0] + i];
-    blocks.part(x, y, z) =
-        cell_rule.whole(range.empty() ? 0.0f : kSafety * transfer.max_mu_t(range.lower, range.upper));
-  });
-  blocks.join(costs_.lookup, chord_mm_, costs_.max_level);
-  each_cell([&](std::int32_t i, std::int32_t j, std::int32_t k, int x, int y, int z) {
-    const int level = blocks.level_of(x, y, z);
-    word(i, j, k) = make_word(blocks.block(level, x, y, z).mu_maj, level);
-  });
-  return blocks.top();
+std::int64_t MajorantHierarchy::super_cube_of(std::int64_t cube) const {
+  const Place at(cube, cubes_);
+  return (std::int64_t{at.k / kSide} * super_cubes_[1] + at.j / kSide) * super_cubes_[0] + at.i / kSide;
 }
 
+/// Decides about the blocks of a cube; writes its words unless they are all one.
+void MajorantHierarchy::join_cells(std::int64_t at) {
+  Cube& cube = table_[at];
+  if (!(maximum_(cube.values) > 0)) {
+    cube.block = {};
+    cube.own_word = make_word(0, std::min(costs_.max_level, BlockCube::kLevels));
+    return;
+  }
+  BlockCube blocks;
+  maximum_.find(&ranges_.ranges[at * kCubeCells], kCubeCells, kMajorantSafety, blocks.mu_maj.data());
+  const JoinRule cells{costs_.lookup, chord_mm_};
+  for (int i = 0; i < BlockCube::kParts; ++i) blocks.cost[i] = cells.cost(blocks.mu_maj[i]);
+  blocks.join(costs_.lookup, chord_mm_, 0, costs_.max_level);
+  cube.block = blocks.top();
+  cube.own_word = blocks.top_word();
+  if (cube.own_word == kNotJoined) write_cells(at, blocks);
+}
+
+/// Decides about the blocks of several cubes and writes the words of cubes where they are all one.
 void MajorantHierarchy::join_cubes(std::int64_t super_cube) {
   BlockCube blocks;
-  const std::int32_t lower[3] = {
-      static_cast<std::int32_t>(super_cube % super_cubes_[0]) * kSide,
-      static_cast<std::int32_t>(super_cube / super_cubes_[0] % super_cubes_[1]) * kSide,
-      static_cast<std::int32_t>(super_cube / super_cubes_[0] / super_cubes_[1]) * kSide};
+  blocks.mu_maj.fill(0);
+  blocks.cost.fill(1);
+  const Place place(super_cube, super_cubes_);
+  const std::int32_t lower[3] = {place.i * kSide, place.j * kSide, place.k * kSide};
   const auto each_cube = [&](auto&& visit) {
     for (std::int32_t z = 0; z < std::min(kSide, cubes_[2] - lower[2]); ++z)
       for (std::int32_t y = 0; y < std::min(kSide, cubes_[1] - lower[1]); ++y)
         for (std::int32_t x = 0; x < std::min(kSide, cubes_[0] - lower[0]); ++x)
           visit((std::int64_t{lower[2] + z} * cubes_[1] + lower[1] + y) * cubes_[0] + lower[0] + x, x, y, z);
   };
-  each_cube([&](std::int64_t cube, int x, int y, int z) { blocks.part(x, y, z) = cube_tops_[cube]; });
-  blocks.join(costs_.lookup, kSide * chord_mm_, costs_.max_level - BlockCube::kLevels);
   each_cube([&](std::int64_t cube, int x, int y, int z) {
-    const int level = blocks.level_of(x, y, z);
-    if (level == 0) return;
-    const std::uint32_t joined = make_word(blocks.block(level, x, y, z).mu_maj, level + BlockCube::kLevels);
-    const CellBox box = cells_of(cube);
-    for (std::int32_t k = box.lower[2]; k < box.upper[2]; ++k)
-      for (std::int32_t j = box.lower[1]; j < box.upper[1]; ++j)
-        std::fill(&word(box.lower[0], j, k), &word(box.upper[0], j, k), joined);
+    const Block& block = table_[cube].block;
+    blocks.mu_maj[BlockCube::at(x, y, z)] = block.mu_maj;
+    blocks.cost[BlockCube::at(x, y, z)] = block.cost;
   });
+  blocks.join(costs_.lookup, kSide * chord_mm_, BlockCube::kLevels, costs_.max_level);
+  each_cube([&](std::int64_t at, int x, int y, int z) {
+    Cube& cube = table_[at];
+    const std::uint32_t joined = blocks.joined_word(x, y, z);
+    const std::uint32_t wanted = joined != kNotJoined ? joined : cube.own_word;
+    if (wanted == cube.written) return;
+    if (wanted == kNotJoined) return join_cells(at);  // a larger block's word stood there
+    fill_cells(at, wanted);
+  });
+}
+
+void MajorantHierarchy::write_cells(std::int64_t at, const BlockCube& blocks) {
+  const CellBox box = cells_of(at);
+  const std::int32_t width = box.upper[0] - box.lower[0];
+  for (std::int32_t k = box.lower[2]; k < box.upper[2]; ++k)
+    for (std::int32_t j = box.lower[1]; j < box.upper[1]; ++j) {
+      const int y = j - box.lower[1], z = k - box.lower[2];
+      std::uint32_t row[kSide];
+      for (int x = 0; x < kSide; ++x) {
+        const std::uint32_t joined = blocks.joined_word(x, y, z);
+        row[x] = joined == kNotJoined ? make_word(blocks.mu_maj[BlockCube::at(x, y, z)], 0) : joined;
+      }
+      std::copy_n(row, width, &word(box.lower[0], j, k));
+    }
+  table_[at].written = kNotJoined;
+}
+
+void MajorantHierarchy::fill_cells(std::int64_t at, std::uint32_t value) {
+  const CellBox box = cells_of(at);
+  for (std::int32_t k = box.lower[2]; k < box.upper[2]; ++k)
+    for (std::int32_t j = box.lower[1]; j < box.upper[1]; ++j)
+      std::fill_n(&word(box.lower[0], j, k), box.upper[0] - box.lower[0], value);
+  table_[at].written = value;
 }
 
 /// The cells around the grid continue their neighbours, each alone.

@@ -18,26 +18,37 @@ struct HierarchyCosts {
 };
 
 /// Majorants of one volume under one transfer function, fine where the data varies and coarse where it is
-/// empty or even. Value ranges are built once per volume; a new transfer function recomputes the rest.
+/// empty or even. Value ranges are built once per volume; a new transfer function recomputes what it changes.
 class MajorantHierarchy {
  public:
   /// `cell_voxels` >= 1 is the finest cell's edge.
   MajorantHierarchy(const GridView& grid, int cell_voxels, HierarchyCosts costs = {});
 
-  /// Recomputes every majorant: of a finest cell the exact supremum of mu_t over its value range times
-  /// 1 + 1e-4, of a block the largest of its cells.
+  /// Brings every majorant up to date: of a finest cell the exact supremum of mu_t over its value range times
+  /// kMajorantSafety, of a block the largest of its cells. Only cubes of cells with values that the function
+  /// changes since the last update are computed; the result is the same as if all were.
   void update(const TransferFunction& transfer);
 
   HierarchyView view() const;
 
  private:
-  /// The cells [lower, upper) of a cube of 8^3.
+  /// 8^3 finest cells.
+  struct Cube {
+    ValueRange values;                    ///< of all its cells
+    Block block;                          ///< the cube as a whole
+    std::uint32_t own_word = kNotJoined;  ///< the word of all its cells, or kNotJoined
+    std::uint32_t written = kNotJoined;   ///< the word that stands in all its cells now; kNotJoined: various
+  };
+  /// The cells [lower, upper) of a cube.
   struct CellBox {
     std::int32_t lower[3], upper[3];
   };
   CellBox cells_of(std::int64_t cube) const;
-  Block join_cube(std::int64_t cube, const TransferFunction& transfer);
+  std::int64_t super_cube_of(std::int64_t cube) const;
+  void join_cells(std::int64_t cube);
   void join_cubes(std::int64_t super_cube);
+  void write_cells(std::int64_t cube, const BlockCube& blocks);
+  void fill_cells(std::int64_t cube, std::uint32_t word);
   void fill_ring();
   std::uint32_t& word(std::int32_t i, std::int32_t j, std::int32_t k);
 
@@ -46,7 +57,8 @@ class MajorantHierarchy {
   Box3f domain_;
   float chord_mm_;  ///< mean length of a random line through a finest cell
   std::int32_t cubes_[3], super_cubes_[3];
-  std::vector<Block> cube_tops_;
+  RangeMaximum maximum_;  ///< of the last update
+  std::vector<Cube> table_;
   std::vector<std::uint32_t> words_;
 };
 

@@ -3,26 +3,12 @@
 #include "base/parallel.h"
 
 namespace voxlume {
-namespace {
-// Covers what the look-up's own rounding can add to the supremum.
-constexpr float kSafety = 1 + 1e-4f;
-}  // namespace
-
 MajorantGrid::MajorantGrid(const GridView& grid, int cell_voxels)
     : ranges_(build_value_ranges(grid, cell_voxels)),
       mu_maj_(ranges_.ranges.size()),
       domain_(grid.index_box()) {}
 
-void MajorantGrid::update(const TransferFunction& transfer) {
-  constexpr std::int64_t kRun = 4096;
-  const auto count = static_cast<std::int64_t>(mu_maj_.size());
-  parallel_for((count + kRun - 1) / kRun, 1, [&](std::int64_t run) {
-    for (std::int64_t i = run * kRun; i < std::min(count, (run + 1) * kRun); ++i) {
-      const ValueRange range = ranges_.ranges[i];
-      mu_maj_[i] = range.empty() ? 0.0f : kSafety * transfer.max_mu_t(range.lower, range.upper);
-    }
-  });
-}
+void MajorantGrid::update(const TransferFunction& transfer) { find_majorants(transfer, ranges_, mu_maj_); }
 
 MajorantView MajorantGrid::view() const {
   MajorantView view;
@@ -31,6 +17,17 @@ MajorantView MajorantGrid::view() const {
   view.cell_voxels = static_cast<float>(ranges_.cell_voxels);
   view.domain = domain_;
   return view;
+}
+
+void find_majorants(const TransferFunction& transfer, const ValueRangeGrid& ranges,
+                    std::vector<float>& mu_maj) {
+  constexpr std::int64_t kRun = 4096;
+  const auto count = static_cast<std::int64_t>(mu_maj.size());
+  parallel_for((count + kRun - 1) / kRun, 1, [&](std::int64_t run) {
+    const std::int64_t begin = run * kRun;
+    transfer.range_maximum().find(&ranges.ranges[begin], std::min(kRun, count - begin), kMajorantSafety,
+                                  &mu_maj[begin]);
+  });
 }
 
 int default_macrocell_voxels(const GridView& grid) {

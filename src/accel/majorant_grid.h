@@ -7,6 +7,13 @@
 
 namespace voxlume {
 
+/// A majorant over the supremum of mu_t; covers what the look-up's own rounding can add.
+inline constexpr float kMajorantSafety = 1 + 1e-4f;
+
+/// The majorants of cells with given ranges, on all threads; `mu_maj` has as many elements.
+void find_majorants(const TransferFunction& transfer, const ValueRangeGrid& ranges,
+                    std::vector<float>& mu_maj);
+
 /// Majorants of one volume under one transfer function. The value ranges are built once per volume; a new
 /// transfer function only recomputes the majorants.
 class MajorantGrid {
@@ -14,7 +21,8 @@ class MajorantGrid {
   /// `cell_voxels` >= 1 is a macrocell's edge; at least the volume's longest side gives one global majorant.
   MajorantGrid(const GridView& grid, int cell_voxels);
 
-  /// Recomputes every majorant: the exact supremum of mu_t over the cell's value range, times 1 + 1e-4.
+  /// Recomputes every majorant: the exact supremum of mu_t over the cell's value range, times
+  /// kMajorantSafety.
   void update(const TransferFunction& transfer);
 
   MajorantView view() const;

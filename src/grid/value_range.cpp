@@ -9,36 +9,54 @@
 namespace voxlume {
 namespace {
 
-/// Least and greatest voxel of every column of a block of rows, in the voxels' type: converting to float
-/// keeps the order. (f64 is converted first, so that what is no float counts as it does in the look-up.)
+constexpr ValueRange kNoValues{std::numeric_limits<float>::max(), std::numeric_limits<float>::lowest()};
+
+ValueRange joined(ValueRange range, ValueRange other) {
+  // Written so that a NaN changes neither bound: where it enters the interpolation, nothing is visible.
+  return {other.lower < range.lower ? other.lower : range.lower,
+          other.upper > range.upper ? other.upper : range.upper};
+}
+
+/// The ranges of `count` cells in a row from cell `first` on. Bounds are kept in the voxels' type: converting
+/// to float keeps the order. (f64 is converted first, so that what is no float counts as it does in the
+/// look-up.)
 template <class T>
-class ColumnRanges {
- public:
-  explicit ColumnRanges(std::int32_t columns) : lower_(columns), upper_(columns) {}
-  void clear() {
-    std::fill(lower_.begin(), lower_.end(), std::numeric_limits<Bound>::max());
-    std::fill(upper_.begin(), upper_.end(), std::numeric_limits<Bound>::lowest());
+void find_row(const T* voxels, const GridView& grid, const std::int32_t (&first)[3], int cell_voxels,
+              std::int32_t count, ValueRange* out) {
+  using Bound = std::conditional_t<std::is_same_v<T, double>, float, T>;
+  using Limits = std::numeric_limits<Bound>;
+  constexpr std::int32_t kBlock = 256;  // voxels along i that are done at once
+  std::int32_t begin[3], end[3];
+  for (int a = 0; a < 3; ++a) {
+    begin[a] = first[a] * cell_voxels;
+    end[a] = std::min(begin[a] + cell_voxels, grid.size[a] - 1) + 1;
   }
-  void add_row(const T* row) {
-    Bound* lower = lower_.data();
-    Bound* upper = upper_.data();
-    const auto columns = static_cast<std::int64_t>(lower_.size());
-    for (std::int64_t i = 0; i < columns; ++i) {
-      const auto v = static_cast<Bound>(row[i]);
-      // Written so that a NaN changes neither bound: where it enters the interpolation, nothing is visible.
-      lower[i] = v < lower[i] ? v : lower[i];
-      upper[i] = v > upper[i] ? v : upper[i];
+  end[0] = std::min(begin[0] + count * cell_voxels + 1, grid.size[0]);
+  std::fill_n(out, count, kNoValues);
+  Bound lower[kBlock], upper[kBlock];
+  for (std::int32_t block = begin[0]; block < end[0]; block += kBlock) {
+    const std::int32_t width = std::min(kBlock, end[0] - block);
+    std::fill_n(lower, width, Limits::max());
+    std::fill_n(upper, width, Limits::lowest());
+    for (std::int32_t k = begin[2]; k < end[2]; ++k)
+      for (std::int32_t j = begin[1]; j < end[1]; ++j) {
+        const T* row = voxels + k * grid.stride_k + j * grid.stride_j + block;
+        for (std::int32_t x = 0; x < width; ++x) {
+          const auto v = static_cast<Bound>(row[x]);
+          // A NaN changes neither bound.
+          lower[x] = v < lower[x] ? v : lower[x];
+          upper[x] = v > upper[x] ? v : upper[x];
+        }
+      }
+    for (std::int32_t x = 0; x < width; ++x) {
+      // A voxel between two cells belongs to both.
+      const std::int32_t at = block + x - begin[0], cell = at / cell_voxels;
+      const ValueRange column{static_cast<float>(lower[x]), static_cast<float>(upper[x])};
+      if (cell < count) out[cell] = joined(out[cell], column);
+      if (cell > 0 && cell * cell_voxels == at) out[cell - 1] = joined(out[cell - 1], column);
     }
   }
-  ValueRange over(std::int32_t first, std::int32_t last) const {
-    return {static_cast<float>(*std::min_element(&lower_[first], &lower_[last] + 1)),
-            static_cast<float>(*std::max_element(&upper_[first], &upper_[last] + 1))};
-  }
-
- private:
-  using Bound = std::conditional_t<std::is_same_v<T, double>, float, T>;
-  std::vector<Bound> lower_, upper_;
-};
+}
 
 // Three nested linear interpolations of floats, each rounding twice.
 ValueRange widened(ValueRange range) {
@@ -48,33 +66,51 @@ ValueRange widened(ValueRange range) {
   return {range.lower - slack, range.upper + slack};
 }
 
+/// Calls visit(i, j, k, count, place) for runs of cells along i that cover the grid, in parallel.
+template <class Visit>
+void each_run(const std::int32_t (&cells)[3], CellOrder order, Visit&& visit) {
+  if (order == CellOrder::kRows) {
+    parallel_for(std::int64_t{cells[1]} * cells[2], 4, [&](std::int64_t row) {
+      visit(0, static_cast<std::int32_t>(row % cells[1]), static_cast<std::int32_t>(row / cells[1]), cells[0],
+            row * cells[0]);
+    });
+    return;
+  }
+  std::int32_t cubes[3];
+  for (int a = 0; a < 3; ++a) cubes[a] = (cells[a] + kCubeSide - 1) / kCubeSide;
+  parallel_for(std::int64_t{cubes[0]} * cubes[1] * cubes[2], 1, [&](std::int64_t cube) {
+    const auto i = static_cast<std::int32_t>(cube % cubes[0]) * kCubeSide;
+    const auto j = static_cast<std::int32_t>(cube / cubes[0] % cubes[1]) * kCubeSide;
+    const auto k = static_cast<std::int32_t>(cube / cubes[0] / cubes[1]) * kCubeSide;
+    for (std::int32_t z = 0; z < std::min(kCubeSide, cells[2] - k); ++z)
+      for (std::int32_t y = 0; y < std::min(kCubeSide, cells[1] - j); ++y)
+        visit(i, j + y, k + z, std::min(kCubeSide, cells[0] - i),
+              cube * kCubeCells + (z * kCubeSide + y) * kCubeSide);
+  });
+}
+
+std::int64_t cell_count(const std::int32_t (&cells)[3], CellOrder order) {
+  if (order == CellOrder::kRows) return std::int64_t{cells[0]} * cells[1] * cells[2];
+  std::int64_t cubes = 1;
+  for (const std::int32_t n : cells) cubes *= (n + kCubeSide - 1) / kCubeSide;
+  return cubes * kCubeCells;
+}
+
 }  // namespace
 
-ValueRangeGrid build_value_ranges(const GridView& grid, int cell_voxels) {
+ValueRangeGrid build_value_ranges(const GridView& grid, int cell_voxels, CellOrder order) {
   ValueRangeGrid out;
   cell_voxels = std::min(cell_voxels, std::max({grid.size[0], grid.size[1], grid.size[2]}));
   out.cell_voxels = cell_voxels;
   for (int a = 0; a < 3; ++a) out.cells[a] = std::max(1, (grid.size[a] - 1 + cell_voxels - 1) / cell_voxels);
-  const std::int64_t rows = std::int64_t{out.cells[1]} * out.cells[2];
-  out.ranges.resize(rows * out.cells[0]);
-  const auto last_voxel = [&](int axis, std::int32_t cell) {
-    return std::min(cell * cell_voxels + cell_voxels, grid.size[axis] - 1);
-  };
-  with_voxels(grid.type, grid.voxels, [&]<class T>(const T* voxels) {
-    constexpr std::int64_t kRun = 8;
-    parallel_for((rows + kRun - 1) / kRun, 1, [&](std::int64_t run) {
-      ColumnRanges<T> columns(grid.size[0]);
-      for (std::int64_t row = run * kRun; row < std::min(rows, (run + 1) * kRun); ++row) {
-        const auto cell_j = static_cast<std::int32_t>(row % out.cells[1]);
-        const auto cell_k = static_cast<std::int32_t>(row / out.cells[1]);
-        columns.clear();
-        for (std::int64_t k = cell_k * cell_voxels; k <= last_voxel(2, cell_k); ++k)
-          for (std::int64_t j = cell_j * cell_voxels; j <= last_voxel(1, cell_j); ++j)
-            columns.add_row(voxels + k * grid.stride_k + j * grid.stride_j);
-        for (std::int32_t i = 0; i < out.cells[0]; ++i)
-          out.ranges[row * out.cells[0] + i] = widened(columns.over(i * cell_voxels, last_voxel(0, i)));
-      }
-    });
+  out.ranges.assign(static_cast<std::size_t>(cell_count(out.cells, order)), kNoValues);
+  with_voxels(grid.type, grid.voxels, [&](const auto* voxels) {
+    each_run(out.cells, order,
+             [&](std::int32_t i, std::int32_t j, std::int32_t k, std::int32_t count, std::int64_t place) {
+               ValueRange* run = &out.ranges[place];
+               find_row(voxels, grid, {i, j, k}, cell_voxels, count, run);
+               std::transform(run, run + count, run, widened);
+             });
   });
   return out;
 }

@@ -13,17 +13,23 @@ struct ValueRange {
   bool empty() const { return lower > upper; }
 };
 
+/// How the cells of a grid lie in memory: row after row, or by cubes of 8^3 cells (both i fastest), of which
+/// the outermost may reach beyond the grid.
+enum class CellOrder { kRows, kCubes };
+inline constexpr std::int32_t kCubeSide = 8;
+inline constexpr std::int64_t kCubeCells = std::int64_t{kCubeSide} * kCubeSide * kCubeSide;
+
 /// Value ranges of cubic cells of `cell_voxels` spacings. Cell (i,j,k) starts at the integer p_index
 /// (i,j,k)*cell_voxels; the outermost cells reach to the end of the domain. A cell's range is taken over its
 /// (cell_voxels+1)^3 voxels: the trilinear field is continuous and attains that range and nothing outside it.
 struct ValueRangeGrid {
   std::int32_t cells[3] = {0, 0, 0};
   std::int32_t cell_voxels = 0;
-  std::vector<ValueRange> ranges;  ///< i fastest
+  std::vector<ValueRange> ranges;  ///< in the order asked for; empty beyond the grid
 };
 
 /// Builds the ranges, once per volume, on all threads. `cell_voxels` >= 1. Ranges are widened by the rounding
 /// of the interpolation (a few ulp), so that they hold for the floats sample_trilinear returns.
-ValueRangeGrid build_value_ranges(const GridView& grid, int cell_voxels);
+ValueRangeGrid build_value_ranges(const GridView& grid, int cell_voxels, CellOrder order = CellOrder::kRows);
 
 }  // namespace voxlume

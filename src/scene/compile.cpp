@@ -24,23 +24,6 @@ constexpr double kMaxVoxelDepth = 1e5;
 
 Vec3f to_vec(const Color& color) { return {color.linear[0], color.linear[1], color.linear[2]}; }
 
-AcceleratorChoice accelerator_choice(const RenderDescription& render, const GridView& grid) {
-  AcceleratorChoice choice;
-  choice.cell_voxels = render.macrocell_voxels;
-  choice.costs.lookup = static_cast<float>(render.lookup_cost);
-  if (render.accelerator == "none") {
-    choice.kind = AcceleratorKind::kMacrocell;
-    choice.cell_voxels = std::max({grid.size[0], grid.size[1], grid.size[2], 1});
-  } else if (render.accelerator == "macrocell") {
-    choice.kind = AcceleratorKind::kMacrocell;
-  } else if (render.accelerator != "auto" && render.accelerator != "hierarchy") {
-    throw Error(
-        ErrorCode::kUnsupported, "/render/accelerator",
-        "\"" + render.accelerator + "\" is not built yet; available: auto, none, macrocell, hierarchy");
-  }
-  return choice;
-}
-
 SimdTarget simd_target(const std::string& name) {
   if (name == "auto") return best_simd_target();
   std::string available = "auto";
@@ -84,6 +67,34 @@ LightSampling light_sampling(const std::string& name) {
 }
 
 }  // namespace
+
+AcceleratorChoice accelerator_choice(const RenderDescription& render, const GridView& grid) {
+  AcceleratorChoice choice;
+  choice.cell_voxels = render.macrocell_voxels;
+  choice.costs.lookup = static_cast<float>(render.lookup_cost);
+  choice.thresholds = {static_cast<float>(render.hierarchy_thresholds[0]),
+                       static_cast<float>(render.hierarchy_thresholds[1])};
+  if (render.accelerator == "none") {
+    choice.kind = AcceleratorKind::kMacrocell;
+    choice.cell_voxels = std::max({grid.size[0], grid.size[1], grid.size[2], 1});
+  } else if (render.accelerator == "macrocell") {
+    choice.kind = AcceleratorKind::kMacrocell;
+  } else if (render.accelerator == "octree") {
+    choice.kind = AcceleratorKind::kSkippingOctree;
+  } else if (render.accelerator == "residency") {
+    choice.kind = AcceleratorKind::kResidency;
+  } else if (render.accelerator != "auto" && render.accelerator != "hierarchy") {
+    throw Error(ErrorCode::kBadParameter, "/render/accelerator",
+                "unknown \"" + render.accelerator +
+                    "\"; expected auto, none, macrocell, octree, hierarchy or residency");
+  } else if (render.hierarchy_rule == "thresholds") {
+    choice.kind = AcceleratorKind::kThresholdOctree;
+  } else if (render.hierarchy_rule != "cost") {
+    throw Error(ErrorCode::kBadParameter, "/render/hierarchy_rule",
+                "unknown \"" + render.hierarchy_rule + "\"; expected cost or thresholds");
+  }
+  return choice;
+}
 
 CompiledScene::CompiledScene(SceneDescription description, Volume volume, const VolumeStatistics& statistics)
     : description_(std::move(description)),

@@ -14,6 +14,9 @@
 
 namespace voxlume {
 
+/// The structure that a scene asks for. Throws Error kBadParameter for words it does not know.
+AcceleratorChoice accelerator_choice(const RenderDescription& render, const GridView& grid);
+
 /// A scene ready to trace: owns the voxels and every table that view() points to. Immutable. World
 /// coordinates of view() are LPS mm from the volume's centre.
 class CompiledScene {

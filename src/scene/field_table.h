@@ -9,8 +9,9 @@ namespace voxlume {
 // visitor(FieldInfo, &T::member) for every field, in the order in which files are written. A field that is
 // not here does not exist in scene files.
 
-inline const WordChoices kAcceleratorWords{{"auto", "none", "macrocell", "hierarchy"},
-                                           {"octree", "residency"}};
+inline const WordChoices kAcceleratorWords{{"auto", "none", "macrocell", "octree", "hierarchy", "residency"},
+                                           {}};
+inline const WordChoices kHierarchyRuleWords{{"cost", "thresholds"}, {}};
 inline const WordChoices kSimdWords{{"auto", "scalar", "sse4", "avx2", "avx512", "neon"}, {}};
 inline const WordChoices kDenoiseWords{{"none"}, {"decoupled", "wrls", "svgf"}};
 inline const WordChoices kLightSamplingWords{{"mis", "light", "direction"}, {}};
@@ -74,18 +75,33 @@ void visit_fields(V&& visit, Struct<RenderDescription>) {
          .doc = "Most scatterings of a path; 0 is without limit, ended by Russian roulette.",
          .range = between(0, 1e6)},
         &T::max_scatter);
-  visit({.key = "accelerator", .doc = "Structure of majorants.", .words = &kAcceleratorWords},
+  visit({.key = "accelerator",
+         .doc = "Structure of majorants; auto is hierarchy. The picture stays the same.",
+         .words = &kAcceleratorWords},
         &T::accelerator);
   visit({.key = "macrocell_voxels",
          .doc = "Edge of the finest cells; 0 chooses.",
          .unit = "voxels",
          .range = between(0, 1024)},
         &T::macrocell_voxels);
+  visit(
+      {.key = "hierarchy_rule",
+       .doc = "What joins the hierarchy's cells to larger ones: the cost of crossing them (lookup_cost), or "
+              "the thresholds of xu2025. The picture stays the same.",
+       .words = &kHierarchyRuleWords},
+      &T::hierarchy_rule);
   visit({.key = "lookup_cost",
-         .doc = "Of the hierarchy: what a look-up of the data costs, in crossings of a cell. Greater values "
-                "make finer cells; the picture stays the same.",
+         .doc = "Rule cost: what a look-up of the data costs, in crossings of a cell. Greater values make "
+                "finer cells.",
          .range = between(0, 1000)},
         &T::lookup_cost);
+  visit(
+      {.key = "hierarchy_thresholds",
+       .doc = "Rule thresholds: a walk leaves cells of fewer collisions than the first number for larger "
+              "ones, and cells of more than the second for their parts. A cell counts as one of the finest.",
+       .unit = "collisions over the edge of a finest cell",
+       .range = between(0, 1e6)},
+      &T::hierarchy_thresholds);
   visit({.key = "sampler",
          .doc = "The first random numbers of a pixel's samples: stratified against each other (sobol), which "
                 "converges faster, or independent (random)."},

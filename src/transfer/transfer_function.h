@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "transfer/range_maximum.h"
 #include "transfer/transfer_view.h"
 #include "voxlume/scene.h"
 
@@ -22,6 +23,8 @@ class TransferFunction {
   float max_mu_t(float lower, float upper) const;
   /// The supremum over all values.
   float max_mu_t() const;
+  /// The suprema's tables.
+  const RangeMaximum& range_maximum() const { return maximum_; }
   /// Whether any value emits light.
   bool emits() const;
 
@@ -33,8 +36,7 @@ class TransferFunction {
   void fill_buckets();
   float buckets_per_unit_ = 0;
   float reference_length_mm_ = 1;
-  /// range_max_[level][i]: the supremum of mu_t over pieces i .. i + 2^level - 1.
-  std::vector<std::vector<float>> range_max_;
+  RangeMaximum maximum_;
 };
 
 /// Opacity per reference length to extinction [1/mm] (design convention; o is clamped to [0, 0.9999]).

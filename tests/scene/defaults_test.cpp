@@ -143,8 +143,7 @@ TEST(Compile, RefusesExtinctionThatNoRayGetsThrough) {
 TEST(Compile, RefusesWhatIsNotBuilt) {
   const Volume phantom = make_head_phantom();
   const VolumeStatistics statistics = compute_statistics(make_grid_view(phantom));
-  for (const auto set : {+[](RenderDescription& r) { r.accelerator = "octree"; },
-                         +[](RenderDescription& r) { r.denoise = "wrls"; }}) {
+  for (const auto set : {+[](RenderDescription& r) { r.denoise = "wrls"; }}) {
     SceneDescription scene = resolve({}, phantom, statistics);
     set(scene.render);
     try {

@@ -41,7 +41,9 @@ inline SceneDescription full_scene() {
   s.render.max_scatter = 100;
   s.render.accelerator = "macrocell";
   s.render.macrocell_voxels = 8;
+  s.render.hierarchy_rule = "thresholds";
   s.render.lookup_cost = 4;
+  s.render.hierarchy_thresholds = {0.25, 2};
   s.render.sampler = Sampler::kRandom;
   s.render.light_samples = 2;
   s.render.simd = "scalar";

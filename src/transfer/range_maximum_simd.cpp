@@ -1,0 +1,143 @@
+// Few enough sets to test each.
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "transfer/range_maximum_simd.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include <cstring>
+
+#include "transfer/range_maximum.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace voxlume {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Floats = hn::ScalableTag<float>;
+using Ints = hn::ScalableTag<std::int32_t>;
+using F = hn::Vec<Floats>;
+using I = hn::Vec<Ints>;
+
+/// RangeMaximum::operator() for a vector of ranges, with the same arithmetic.
+class VectorMaximum {
+ public:
+  explicit VectorMaximum(const RangeMaximumView& f)
+      : pieces_(reinterpret_cast<const float*>(f.pieces)),
+        buckets_(reinterpret_cast<const std::int32_t*>(f.buckets)),
+        knot_max_(f.knot_max),
+        origin_(hn::Set(d_, f.bucket_origin)),
+        per_unit_(hn::Set(d_, f.buckets_per_unit)),
+        last_bucket_(hn::Set(d_, static_cast<float>(f.bucket_count - 1))),
+        piece_count_(hn::Set(di_, f.piece_count)) {}
+
+  HWY_INLINE F operator()(F lower, F upper) const {
+    const I bucket = bucket_of(lower), upper_bucket = bucket_of(upper);
+    const I entry = hn::GatherIndex(di_, buckets_, bucket);
+    const I next_visible = hn::BitCast(di_, hn::ShiftRight<16>(hn::BitCast(du_, entry)));
+    const auto maybe =
+        hn::And(hn::RebindMask(d_, hn::Not(hn::Gt(next_visible, upper_bucket))), hn::Le(lower, upper));
+    if (hn::AllFalse(d_, maybe)) return hn::Zero(d_);
+    const I low_half = hn::Set(di_, 0xffff);
+    I first = hn::And(entry, low_half);
+    I last = hn::And(hn::GatherIndex(di_, buckets_, upper_bucket), low_half);
+    F most = value_at(lower, first);
+    most = hn::Max(most, value_at(upper, last));
+    const I crossed = hn::Sub(last, first);
+    const auto crossing = hn::RebindMask(d_, hn::Gt(crossed, hn::Zero(di_)));
+    if (!hn::AllFalse(d_, crossing))
+      most = hn::Max(most, hn::IfThenElseZero(crossing, knot_maximum(first, last, crossed)));
+    return hn::IfThenElseZero(maybe, most);
+  }
+
+ private:
+  HWY_INLINE I bucket_of(F value) const {
+    const F at = hn::Mul(hn::Sub(value, origin_), per_unit_);
+    // NaN falls into bucket 0.
+    return hn::ConvertTo(di_, hn::Min(hn::IfThenElseZero(hn::Gt(at, hn::Zero(d_)), at), last_bucket_));
+  }
+
+  /// The piece that a value is in, from its bucket's on, and mu_t there.
+  HWY_INLINE F value_at(F value, I& piece) const {
+    constexpr std::size_t kMostLanes = 16;
+    alignas(64) std::int32_t at[kMostLanes];
+    alignas(64) float table[4 * kMostLanes];
+    for (;;) {
+      hn::Store(piece, di_, at);
+      for (std::size_t lane = 0; lane < hn::Lanes(d_); ++lane)
+        std::memcpy(table + 4 * lane, pieces_ + 4 * at[lane], 16);
+      F end, anchor, mu_t, slope;
+      hn::LoadInterleaved4(d_, table, end, anchor, mu_t, slope);
+      const auto beyond = hn::Ge(value, end);
+      if (hn::AllFalse(d_, beyond)) {
+        const F v = hn::Add(mu_t, hn::Mul(slope, hn::Sub(value, anchor)));
+        return hn::IfThenElseZero(hn::Gt(v, hn::Zero(d_)), v);
+      }
+      piece = hn::Sub(piece, hn::BitCast(di_, hn::VecFromMask(d_, beyond)));
+    }
+  }
+
+  /// The greatest value at the knots of pieces first + 1 .. last; any value where there are none.
+  HWY_INLINE F knot_maximum(I first, I last, I crossed) const {
+    // The exponent of a whole number's float is the logarithm's floor; counts are far below 2^24.
+    const I some = hn::Max(crossed, one_);
+    const I exponent =
+        hn::Sub(hn::ShiftRight<23>(hn::BitCast(di_, hn::ConvertTo(d_, some))), hn::Set(di_, 127));
+    const I width =
+        hn::ConvertTo(di_, hn::BitCast(d_, hn::ShiftLeft<23>(hn::Add(exponent, hn::Set(di_, 127)))));
+    const I row = hn::Mul(exponent, piece_count_);
+    const I last_start = hn::Max(hn::Sub(hn::Add(last, one_), width), hn::Zero(di_));
+    const I first_start = hn::Min(hn::Add(first, one_), hn::Sub(piece_count_, one_));
+    return hn::Max(hn::GatherIndex(d_, knot_max_, hn::Add(row, first_start)),
+                   hn::GatherIndex(d_, knot_max_, hn::Add(row, last_start)));
+  }
+
+  Floats d_;
+  Ints di_;
+  hn::RebindToUnsigned<Ints> du_;
+  const float* pieces_;
+  const std::int32_t* buckets_;
+  const float* knot_max_;
+  F origin_, per_unit_, last_bucket_;
+  I piece_count_;
+  I one_ = hn::Set(Ints(), 1);
+};
+
+void find_maxima(const RangeMaximumView& function, const ValueRange* ranges, std::int64_t count, float scale,
+                 float* mu_maj) {
+  const Floats d;
+  constexpr std::int64_t kMostLanes = 16;
+  const auto lanes = static_cast<std::int64_t>(hn::Lanes(d));
+  const VectorMaximum maximum(function);
+  const F factor = hn::Set(d, scale);
+  const auto step = [&](const ValueRange* from, float* to) HWY_ATTR {
+    F lower, upper;
+    hn::LoadInterleaved2(d, reinterpret_cast<const float*>(from), lower, upper);
+    hn::StoreU(hn::Mul(maximum(lower, upper), factor), d, to);
+  };
+  std::int64_t i = 0;
+  for (; i + lanes <= count; i += lanes) step(ranges + i, mu_maj + i);
+  if (i == count) return;
+  ValueRange rest[kMostLanes];
+  float results[kMostLanes];
+  for (std::int64_t n = 0; n < kMostLanes; ++n) rest[n] = i + n < count ? ranges[i + n] : ValueRange{1, 0};
+  step(rest, results);
+  for (std::int64_t n = 0; i + n < count; ++n) mu_maj[i + n] = results[n];
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace voxlume
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace voxlume {
+
+HWY_EXPORT(find_maxima);
+
+void simd::find_range_maxima(const RangeMaximumView& function, const ValueRange* ranges, std::int64_t count,
+                             float scale, float* mu_maj) noexcept {
+  HWY_DYNAMIC_DISPATCH(find_maxima)(function, ranges, count, scale, mu_maj);
+}
+
+}  // namespace voxlume
+#endif
