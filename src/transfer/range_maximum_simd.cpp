@@ -1,5 +1,4 @@
-// Few enough sets to test each.
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)
+#include "base/vector_targets.h"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "transfer/range_maximum_simd.cpp"
 #include <hwy/foreach_target.h>
