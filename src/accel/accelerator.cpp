@@ -6,7 +6,7 @@ Accelerator::Structure Accelerator::build(const GridView& grid, const Accelerato
   const int given = choice.cell_voxels;
   switch (choice.kind) {
     case AcceleratorKind::kMacrocell:
-      return MajorantGrid(grid, given > 0 ? given : default_macrocell_voxels(grid));
+      return MajorantGrid(grid, given > 0 ? given : default_macrocell_voxels(grid), choice.minima);
     case AcceleratorKind::kHierarchy:
       break;
   }

@@ -20,6 +20,8 @@ struct ValueRangeGrid {
   std::int32_t cells[3] = {0, 0, 0};
   std::int32_t cell_voxels = 0;
   std::vector<ValueRange> ranges;  ///< i fastest
+  /// Whether a cell has a NaN, which its range leaves out; empty for voxels of whole numbers.
+  std::vector<std::uint8_t> has_nan;
 };
 
 /// Builds the ranges, once per volume, on all threads. `cell_voxels` >= 1. Ranges are widened by the rounding

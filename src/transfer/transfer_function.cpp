@@ -127,6 +127,9 @@ Curve<double> extinction_curve(const TransferDescription& d) {
   return mu_t;
 }
 
+constexpr auto kGreater = [](float a, float b) { return std::max(a, b); };
+constexpr auto kLess = [](float a, float b) { return std::min(a, b); };
+
 float piece_value(const TransferPiece& piece, float value) {
   return std::max(0.0f, piece.mu_t + piece.mu_t_slope * (value - piece.anchor));
 }
@@ -182,18 +185,26 @@ TransferFunction::TransferFunction(const TransferDescription& d) {
 
   fill_buckets();
 
+  range_max_ = sparse_table(kGreater);
+  range_min_ = sparse_table(kLess);
+}
+
+template <class Pick>
+TransferFunction::SparseTable TransferFunction::sparse_table(Pick pick) const {
+  SparseTable table;
   std::vector<float> level;
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
     const float end = i + 1 < pieces_.size() ? pieces_[i + 1].start : pieces_[i].anchor;
-    level.push_back(std::max(piece_value(pieces_[i], pieces_[i].anchor), piece_value(pieces_[i], end)));
+    level.push_back(pick(piece_value(pieces_[i], pieces_[i].anchor), piece_value(pieces_[i], end)));
   }
   for (std::size_t step = 1; !level.empty(); step *= 2) {
-    range_max_.push_back(level);
+    table.push_back(level);
     if (level.size() <= step) break;
     std::vector<float> next;
-    for (std::size_t i = 0; i + step < level.size(); ++i) next.push_back(std::max(level[i], level[i + step]));
+    for (std::size_t i = 0; i + step < level.size(); ++i) next.push_back(pick(level[i], level[i + step]));
     level = std::move(next);
   }
+  return table;
 }
 
 void TransferFunction::fill_buckets() {
@@ -227,24 +238,32 @@ TransferView TransferFunction::view() const {
   return view;
 }
 
-float TransferFunction::max_mu_t(float lower, float upper) const {
-  if (!(lower <= upper)) return 0;
+template <class Pick>
+float TransferFunction::extreme_mu_t(const SparseTable& table, float lower, float upper, Pick pick) const {
   const TransferView tf = view();
   const std::ptrdiff_t first = &find_piece(tf, lower) - tf.pieces;
   const std::ptrdiff_t last = &find_piece(tf, upper) - tf.pieces;
-  float maximum = std::max(piece_value(pieces_[first], lower), piece_value(pieces_[last], upper));
-  if (first == last) return maximum;
+  float extreme = pick(piece_value(pieces_[first], lower), piece_value(pieces_[last], upper));
+  if (first == last) return extreme;
   // The end of the first piece and the start of the last are inside the range, as are all between.
-  maximum = std::max({maximum, piece_value(pieces_[first], pieces_[first + 1].start),
-                      piece_value(pieces_[last], pieces_[last].start)});
+  extreme = pick(extreme, pick(piece_value(pieces_[first], pieces_[first + 1].start),
+                               piece_value(pieces_[last], pieces_[last].start)));
   const std::ptrdiff_t count = last - first - 1;
   if (count > 0) {
     int level = 0;
     while ((std::ptrdiff_t{2} << level) <= count) ++level;
-    maximum = std::max(
-        {maximum, range_max_[level][first + 1], range_max_[level][last - (std::ptrdiff_t{1} << level)]});
+    extreme = pick(extreme, pick(table[level][first + 1], table[level][last - (std::ptrdiff_t{1} << level)]));
   }
-  return maximum;
+  return extreme;
+}
+
+float TransferFunction::max_mu_t(float lower, float upper) const {
+  return lower <= upper ? extreme_mu_t(range_max_, lower, upper, kGreater) : 0.0f;
+}
+
+float TransferFunction::min_mu_t(float lower, float upper) const {
+  if (!(lower <= upper && std::isfinite(lower) && std::isfinite(upper))) return 0;
+  return extreme_mu_t(range_min_, lower, upper, kLess);
 }
 
 float TransferFunction::max_mu_t() const {

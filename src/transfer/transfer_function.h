@@ -22,6 +22,9 @@ class TransferFunction {
   float max_mu_t(float lower, float upper) const;
   /// The supremum over all values.
   float max_mu_t() const;
+  /// The infimum of mu_t over the closed range of data values [lower, upper], exact, in O(log n): no look-up
+  /// in it is below, to the last bit. 0 where the range is empty or not finite.
+  float min_mu_t(float lower, float upper) const;
   /// Whether any value emits light.
   bool emits() const;
 
@@ -33,8 +36,13 @@ class TransferFunction {
   void fill_buckets();
   float buckets_per_unit_ = 0;
   float reference_length_mm_ = 1;
-  /// range_max_[level][i]: the supremum of mu_t over pieces i .. i + 2^level - 1.
-  std::vector<std::vector<float>> range_max_;
+  /// [level][i]: an extreme of mu_t over pieces i .. i + 2^level - 1.
+  using SparseTable = std::vector<std::vector<float>>;
+  template <class Pick>
+  SparseTable sparse_table(Pick pick) const;
+  template <class Pick>
+  float extreme_mu_t(const SparseTable& table, float lower, float upper, Pick pick) const;
+  SparseTable range_max_, range_min_;
 };
 
 /// Opacity per reference length to extinction [1/mm] (design convention; o is clamped to [0, 0.9999]).
