@@ -207,7 +207,8 @@ TEST(EstimatorsOfHomogeneousMatter, AreUnbiasedUnderRoulette) {
     for (const auto choice : {TransmittanceEstimator::kResidual, TransmittanceEstimator::kMarching}) {
       const test::Moments m =
           transmittances(choice, tracked, {{{0, 5, 1}, {1, 0, 0}}, 0, 9}, 400000, counters);
-      EXPECT_LT(std::abs(m.z(std::exp(-9.0))), 4) << m.mean();
+      // Ray marching is exact here, up to float rounding: all that the ray meets is alike.
+      EXPECT_LT(std::abs(m.z(std::exp(-9.0), 1e-5 * std::exp(-9.0))), 4) << m.mean();
       EXPECT_LT(m.standard_error(), 0.05 * std::exp(-9.0));
     }
   }
