@@ -143,6 +143,8 @@ struct ClipDescription {
 enum class PixelFilter { kGaussian, kBox };
 /// How the first random numbers of a pixel's samples are chosen.
 enum class Sampler { kSobol, kRandom };
+enum class TransmittanceEstimator { kRatio, kResidual, kMarching };
+enum class FreeFlightSampling { kDelta, kDecomposition };
 enum class ToneCurve { kFilmic, kSrgb };
 
 /// The picture: its size, how long to work on it and how it is developed.
@@ -174,7 +176,11 @@ struct RenderDescription {
   /// ones that are denser for their parts.
   std::array<double, 2> hierarchy_thresholds{0.1, 1};
   Sampler sampler = Sampler::kSobol;
-  int light_samples = 1;      ///< shadow rays at the first scattering of a path
+  int light_samples = 1;  ///< shadow rays at the first scattering of a path
+  TransmittanceEstimator transmittance = TransmittanceEstimator::kRatio;
+  FreeFlightSampling free_flight = FreeFlightSampling::kDelta;
+  /// Shadow rays that can add less than this many times the path's first one are cast by Russian roulette.
+  double shadow_roulette = 0;
   std::string simd = "auto";  ///< auto scalar
   std::string denoise = "none";
   /// Which techniques gather light at a scattering: "mis" (both), "light" (next-event estimation alone) or

@@ -8,7 +8,7 @@ Accelerator::Structure Accelerator::build(const GridView& grid, const Accelerato
   };
   switch (choice.kind) {
     case AcceleratorKind::kMacrocell:
-      return MajorantGrid(grid, voxels(default_macrocell_voxels(grid)));
+      return MajorantGrid(grid, voxels(default_macrocell_voxels(grid)), choice.minima);
     case AcceleratorKind::kSkippingOctree:
       return SkippingOctree(grid, voxels(default_macrocell_voxels(grid)));
     case AcceleratorKind::kThresholdOctree:

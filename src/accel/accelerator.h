@@ -11,9 +11,10 @@ namespace voxlume {
 
 struct AcceleratorChoice {
   AcceleratorKind kind = AcceleratorKind::kHierarchy;
-  int cell_voxels = 0;          ///< edge of the finest cells; 0: the kind's own choice
-  HierarchyCosts costs;         ///< kHierarchy
-  OctreeThresholds thresholds;  ///< kThresholdOctree
+  int cell_voxels = 0;                    ///< edge of the finest cells; 0: the kind's own choice
+  HierarchyCosts costs;                   ///< kHierarchy
+  OctreeThresholds thresholds;            ///< kThresholdOctree
+  CellMinima minima = CellMinima::kNone;  ///< of kMacrocell
 };
 
 /// Bounds of the extinction of one volume, by the chosen structure. Its value ranges are built once; update()

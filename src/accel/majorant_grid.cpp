@@ -1,18 +1,38 @@
 #include "accel/majorant_grid.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "base/parallel.h"
 
 namespace voxlume {
-MajorantGrid::MajorantGrid(const GridView& grid, int cell_voxels)
+MajorantGrid::MajorantGrid(const GridView& grid, int cell_voxels, CellMinima minima)
     : ranges_(build_value_ranges(grid, cell_voxels)),
       mu_maj_(ranges_.ranges.size()),
+      mu_min_(minima == CellMinima::kKept ? ranges_.ranges.size() : 0),
+      has_nan_(minima == CellMinima::kKept ? find_nan_cells(grid, ranges_) : std::vector<std::uint8_t>{}),
       domain_(grid.index_box()) {}
 
-void MajorantGrid::update(const TransferFunction& transfer) { find_majorants(transfer, ranges_, mu_maj_); }
+void MajorantGrid::update(const TransferFunction& transfer) {
+  find_majorants(transfer, ranges_, mu_maj_);
+  parallel_for(static_cast<std::int64_t>(mu_min_.size()), 4096,
+               [&](std::int64_t cell) { mu_min_[cell] = minimum_of(cell, transfer); });
+}
+
+float MajorantGrid::minimum_of(std::int64_t cell, const TransferFunction& transfer) const {
+  const ValueRange range = ranges_.ranges[cell];
+  if (!has_nan_.empty() && has_nan_[cell]) return 0;
+  // Differences beyond this overflow when interpolated, and what comes of them is transparent.
+  constexpr float kSafe = std::numeric_limits<float>::max() / 4;
+  if (range.empty() || !(std::abs(range.lower) < kSafe && std::abs(range.upper) < kSafe)) return 0;
+  return transfer.min_mu_t(range.lower, range.upper);
+}
 
 MajorantView MajorantGrid::view() const {
   MajorantView view;
   view.mu_maj = mu_maj_.data();
+  view.mu_min = mu_min_.empty() ? nullptr : mu_min_.data();
   for (int a = 0; a < 3; ++a) view.cells[a] = ranges_.cells[a];
   view.cell_voxels = static_cast<float>(ranges_.cell_voxels);
   view.domain = domain_;

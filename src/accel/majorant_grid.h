@@ -14,22 +14,28 @@ inline constexpr float kMajorantSafety = 1 + 1e-4f;
 void find_majorants(const TransferFunction& transfer, const ValueRangeGrid& ranges,
                     std::vector<float>& mu_maj);
 
+enum class CellMinima { kNone, kKept };
+
 /// Majorants of one volume under one transfer function. The value ranges are built once per volume; a new
 /// transfer function only recomputes the majorants.
 class MajorantGrid {
  public:
   /// `cell_voxels` >= 1 is a macrocell's edge; at least the volume's longest side gives one global majorant.
-  MajorantGrid(const GridView& grid, int cell_voxels);
+  MajorantGrid(const GridView& grid, int cell_voxels, CellMinima minima = CellMinima::kNone);
 
   /// Recomputes every majorant: the exact supremum of mu_t over the cell's value range, times
-  /// kMajorantSafety.
+  /// kMajorantSafety; and every minimum that is kept: the exact infimum, 0 where a voxel is NaN or the field
+  /// overflows.
   void update(const TransferFunction& transfer);
 
   MajorantView view() const;
 
  private:
+  float minimum_of(std::int64_t cell, const TransferFunction& transfer) const;
+
   ValueRangeGrid ranges_;
-  std::vector<float> mu_maj_;
+  std::vector<float> mu_maj_, mu_min_;
+  std::vector<std::uint8_t> has_nan_;  ///< by cell, where minima are kept
   Box3f domain_;
 };
 

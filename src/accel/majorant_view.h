@@ -11,6 +11,7 @@ namespace voxlume {
 /// outermost cells reach to the end of the domain.
 struct MajorantView {
   const float* mu_maj = nullptr;  ///< 1/mm, i fastest; 0 where nothing is visible
+  const float* mu_min = nullptr;  ///< 1/mm, i fastest: greatest lower bounds; nullptr: none are kept
   std::int32_t cells[3] = {0, 0, 0};
   float cell_voxels = 1;
   Box3f domain;  ///< index space
@@ -48,9 +49,10 @@ class MacrocellWalk {
     const float t_far = crossing_[axis] < t_end_ ? crossing_[axis] : t_end_;
     segment.t_near = t_;
     segment.t_far = t_far > t_ ? t_far : t_;
-    segment.mu_maj =
-        view_.mu_maj[(static_cast<std::int64_t>(cell_[2]) * view_.cells[1] + cell_[1]) * view_.cells[0] +
-                     cell_[0]];
+    const std::int64_t index =
+        (static_cast<std::int64_t>(cell_[2]) * view_.cells[1] + cell_[1]) * view_.cells[0] + cell_[0];
+    segment.mu_maj = view_.mu_maj[index];
+    segment.mu_min = view_.mu_min ? view_.mu_min[index] : 0.0f;
     for (int a = 0; a < 3; ++a) {
       segment.cell.lower[a] = face(a, cell_[a]);
       segment.cell.upper[a] = face(a, cell_[a] + 1);

@@ -115,4 +115,29 @@ ValueRangeGrid build_value_ranges(const GridView& grid, int cell_voxels, CellOrd
   return out;
 }
 
+std::vector<std::uint8_t> find_nan_cells(const GridView& grid, const ValueRangeGrid& ranges) {
+  std::vector<std::uint8_t> has_nan;
+  with_voxels(grid.type, grid.voxels, [&]<class T>(const T* voxels) {
+    if constexpr (std::is_floating_point_v<T>) {
+      const auto& n = ranges.cells;
+      const std::int64_t edge = ranges.cell_voxels;
+      has_nan.resize(ranges.ranges.size());
+      // A voxel between cells belongs to both; cells write for themselves.
+      parallel_for(std::int64_t{n[1]} * n[2], 4, [&](std::int64_t row) {
+        const std::int64_t first[2] = {row % n[1] * edge, row / n[1] * edge};
+        for (std::int64_t k = first[1]; k <= std::min<std::int64_t>(first[1] + edge, grid.size[2] - 1); ++k)
+          for (std::int64_t j = first[0]; j <= std::min<std::int64_t>(first[0] + edge, grid.size[1] - 1); ++j)
+            for (std::int64_t i = 0; i < grid.size[0]; ++i) {
+              const T value = voxels[k * grid.stride_k + j * grid.stride_j + i];
+              if (value == value) continue;
+              const std::int64_t cell = i / edge;
+              if (cell < n[0]) has_nan[row * n[0] + cell] = 1;
+              if (cell > 0 && cell * edge == i) has_nan[row * n[0] + cell - 1] = 1;
+            }
+      });
+    }
+  });
+  return has_nan;
+}
+
 }  // namespace voxlume

@@ -32,4 +32,8 @@ struct ValueRangeGrid {
 /// of the interpolation (a few ulp), so that they hold for the floats sample_trilinear returns.
 ValueRangeGrid build_value_ranges(const GridView& grid, int cell_voxels, CellOrder order = CellOrder::kRows);
 
+/// Which cells of `ranges`, built in rows, have a NaN, which their range leaves out; empty for voxels of
+/// whole numbers.
+std::vector<std::uint8_t> find_nan_cells(const GridView& grid, const ValueRangeGrid& ranges);
+
 }  // namespace voxlume

@@ -45,6 +45,7 @@ CameraPath::Wait CameraPath::begin(const SceneView& scene, const PrimaryRay& pri
   throughput_ = Vec3f(1);
   radiance_ = Vec3f(0);
   depth_ = 0;
+  first_unshadowed_ = 0;
   out_ = {};
   ++counters.paths;
   return primary.enters ? Wait::kFlight : end_flight(scene, {}, counters);
@@ -148,12 +149,13 @@ CameraPath::Wait CameraPath::next_light_sample(const SceneView& scene, TraceCoun
     const ScatterValue scattered = eval_scatter(point_, choice_, -direction_world_, light.wi);
     if (!(max_component(scattered.value * light.radiance) > 0)) continue;
 
-    ++counters.shadow_rays;
     const float pdf = light.pdf * count;
     const float weight = light.delta || scene.light_sampling == LightSampling::kLight
                              ? 1.0f
                              : power_heuristic(pdf, scattered.pdf * flight_share(scene));
     unshadowed_ = throughput_ * scattered.value * light.radiance * (weight / pdf);
+    if (!casts_shadow_ray(scene)) continue;
+    ++counters.shadow_rays;
     ray_ = visible_part(scene, p_world_, light.wi, light.distance_mm, !scene.clip_blocks_light);
     if (enters()) return Wait::kTransmittance;
     radiance_ += unshadowed_;
@@ -172,6 +174,19 @@ float CameraPath::flight_share(const SceneView& scene) const noexcept {
   const bool last = scene.max_scatter > 0 && depth_ + 1 == scene.max_scatter;
   const bool glossy = choice_.specular > 0 && point_.alpha < kGlossyAlpha;
   return last && !glossy && scene.light_sampling == LightSampling::kMis ? kLastFlightShare : 1.0f;
+}
+
+/// Russian roulette for shadow rays, in proportion to what they can add. The measure is the path's own first
+/// one, so that nothing depends on how bright the lights are.
+bool CameraPath::casts_shadow_ray(const SceneView& scene) noexcept {
+  if (!(scene.shadow_roulette > 0)) return true;
+  const float size = max_component(unshadowed_);
+  if (!(first_unshadowed_ > 0)) first_unshadowed_ = size;
+  const float threshold = scene.shadow_roulette * first_unshadowed_;
+  if (!(size < threshold)) return true;
+  if (rng_.next() * threshold >= size) return false;
+  unshadowed_ *= threshold / size;
+  return true;
 }
 
 /// Turns the path at a scattering, unless it is absorbed or nothing can come of it.

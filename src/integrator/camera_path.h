@@ -25,7 +25,7 @@ class CameraPath {
   Wait begin(const SceneView& scene, const PrimaryRay& primary, TraceCounters& counters) noexcept;
   /// Goes on from kFlight.
   Wait end_flight(const SceneView& scene, const Collision& collision, TraceCounters& counters) noexcept;
-  /// Goes on from kTransmittance, with an estimate of it in [0, 1].
+  /// Goes on from kTransmittance, with an unbiased estimate of it.
   Wait end_shadow_ray(const SceneView& scene, float transmittance, TraceCounters& counters) noexcept;
 
   /// The ray to track, and its random stream, from which the tracker draws.
@@ -47,6 +47,7 @@ class CameraPath {
   float flight_share(const SceneView& scene) const noexcept;
   Wait scatter(const SceneView& scene, TraceCounters& counters) noexcept;
   bool survives() noexcept;
+  bool casts_shadow_ray(const SceneView& scene) noexcept;
 
   Rng rng_;
   TrackRay ray_;
@@ -64,7 +65,8 @@ class CameraPath {
   int light_samples_left_ = 0;
   /// Light samples taken where the present direction was drawn, over the probability of following that.
   float hit_samples_ = 1;
-  Vec3f unshadowed_;  ///< radiance that the shadow ray's transmittance scales
+  Vec3f unshadowed_;            ///< radiance that the shadow ray's transmittance scales
+  float first_unshadowed_ = 0;  ///< of the path's first shadow ray; 0 before that
   Vec3f radiance_;
   PixelSample out_;
 };

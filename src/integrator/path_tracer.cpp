@@ -131,10 +131,14 @@ PixelSample trace_camera_sample(const SceneView& scene, int x, int y, std::uint3
   Wait wait = path.begin(scene, make_primary_ray(scene, x, y, sample), counters);
   while (wait != Wait::kNothing) {
     wait = wait == Wait::kFlight
-               ? path.end_flight(scene, sample_free_flight(scene.medium, path.ray(), path.rng(), tracking),
+               ? path.end_flight(scene,
+                                 sample_free_flight(scene.trackers.free_flight, scene.medium, path.ray(),
+                                                    path.rng(), tracking),
                                  counters)
-               : path.end_shadow_ray(
-                     scene, estimate_transmittance(scene.medium, path.ray(), path.rng(), tracking), counters);
+               : path.end_shadow_ray(scene,
+                                     estimate_transmittance(scene.trackers.transmittance, scene.medium,
+                                                            path.ray(), path.rng(), tracking),
+                                     counters);
   }
   counters.tracking_steps += tracking.steps;
   counters.majorant_violations += tracking.majorant_violations;

@@ -3,6 +3,7 @@
 
 #include "camera/camera.h"
 #include "light/lights_view.h"
+#include "tracking/estimators.h"
 #include "tracking/lanes.h"
 #include "tracking/medium.h"
 #include "voxlume/scene.h"
@@ -33,6 +34,7 @@ enum class LightSampling { kMis, kLight, kDirection };
 struct SceneView {
   Medium medium;
   SimdTarget simd = SimdTarget::kScalar;  ///< the instruction set that tracks rays; kScalar: one by one
+  TrackerChoice trackers;                 ///< of scalar code; vector code has the default ones only
   Box3f domain_index;                     ///< the volume
   Box3f clip_world;                       ///< LPS mm; what is kept
   bool clip_blocks_light = false;         ///< what is cut away still attenuates light
@@ -53,6 +55,7 @@ struct SceneView {
   std::uint32_t frame = 0;
   std::int32_t max_scatter = 2;    ///< 0: no limit
   std::int32_t light_samples = 1;  ///< at the first scattering; later ones take one
+  float shadow_roulette = 0;       ///< times the path's first shadow ray; 0: every shadow ray is cast
   LightSampling light_sampling = LightSampling::kMis;
   /// Whether a flight after the last scattering can meet anything that emits.
   bool last_flight_collects = true;

@@ -24,6 +24,8 @@ constexpr double kMaxVoxelDepth = 1e5;
 
 Vec3f to_vec(const Color& color) { return {color.linear[0], color.linear[1], color.linear[2]}; }
 
+TrackerChoice trackers(const RenderDescription& render) { return {render.transmittance, render.free_flight}; }
+
 SimdTarget simd_target(const std::string& name) {
   if (name == "auto") return best_simd_target();
   std::string available = "auto";
@@ -93,6 +95,15 @@ AcceleratorChoice accelerator_choice(const RenderDescription& render, const Grid
     throw Error(ErrorCode::kBadParameter, "/render/hierarchy_rule",
                 "unknown \"" + render.hierarchy_rule + "\"; expected cost or thresholds");
   }
+  // The estimators that need the cells' minima.
+  if (!trackers(render).is_default()) {
+    if (render.accelerator == "auto") choice.kind = AcceleratorKind::kMacrocell;
+    if (choice.kind != AcceleratorKind::kMacrocell)
+      throw Error(ErrorCode::kUnsupported, "/render/accelerator",
+                  "the chosen transmittance or free_flight needs auto, none or macrocell, found \"" +
+                      render.accelerator + "\"");
+    choice.minima = CellMinima::kKept;
+  }
   return choice;
 }
 
@@ -142,7 +153,9 @@ void CompiledScene::compile_medium(const SceneDescription& local) {
   view_.medium = {make_grid_view(moved_to_origin(volume_, origin_mm_)), transfer_.view(),
                   accelerator_.view()};
   view_.simd = simd_target(description_.render.simd);
-  if (!vector_tracker(view_.simd, view_.medium)) view_.simd = SimdTarget::kScalar;
+  view_.trackers = trackers(description_.render);
+  if (!view_.trackers.is_default() || !vector_tracker(view_.simd, view_.medium))
+    view_.simd = SimdTarget::kScalar;
   view_.domain_index = view_.medium.grid.index_box();
   view_.clip_world = {Vec3f(-1e30f), Vec3f(1e30f)};
   if (const auto& clip = local.clip) {
@@ -212,6 +225,7 @@ void CompiledScene::compile_image() {
   view_.max_scatter = render.max_scatter;
   view_.sampler = render.sampler;
   view_.light_samples = render.light_samples;
+  view_.shadow_roulette = static_cast<float>(render.shadow_roulette);
   view_.light_sampling = light_sampling(render.light_sampling);
   view_.last_flight_collects =
       transfer_.emits() || (view_.light_sampling != LightSampling::kLight &&

@@ -105,6 +105,14 @@ struct EnumWords<Sampler> {
   static constexpr std::array<std::string_view, 2> kWords{"sobol", "random"};
 };
 template <>
+struct EnumWords<TransmittanceEstimator> {
+  static constexpr std::array<std::string_view, 3> kWords{"ratio", "residual", "marching"};
+};
+template <>
+struct EnumWords<FreeFlightSampling> {
+  static constexpr std::array<std::string_view, 2> kWords{"delta", "decomposition"};
+};
+template <>
 struct EnumWords<ToneCurve> {
   static constexpr std::array<std::string_view, 2> kWords{"filmic", "srgb"};
 };

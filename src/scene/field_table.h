@@ -111,6 +111,20 @@ void visit_fields(V&& visit, Struct<RenderDescription>) {
              "Shadow rays at the first scattering of a path. More than one pays where several lights matter.",
          .range = between(1, 64)},
         &T::light_samples);
+  visit({.key = "transmittance",
+         .doc = "How shadow rays are estimated: ratio tracking, residual ratio tracking or unbiased ray "
+                "marching. All have the same mean. All but ratio take the macrocell accelerator and scalar "
+                "code."},
+        &T::transmittance);
+  visit({.key = "free_flight",
+         .doc = "How collisions are found: delta tracking, or decomposition tracking, which takes the "
+                "macrocell accelerator and scalar code. Both have the same distribution."},
+        &T::free_flight);
+  visit({.key = "shadow_roulette",
+         .doc = "A shadow ray that can add less than this many times what the path's first one could is cast "
+                "by Russian roulette; 0 casts all.",
+         .range = between(0, 100)},
+        &T::shadow_roulette);
   visit({.key = "simd", .doc = "Instruction set.", .words = &kSimdWords}, &T::simd);
   visit({.key = "denoise", .doc = "Denoiser.", .words = &kDenoiseWords}, &T::denoise);
   visit({.key = "light_sampling",

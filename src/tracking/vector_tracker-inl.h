@@ -165,7 +165,8 @@ class LaneTracker {
     const F start = load(lanes_.exit_mm, v), length = load(lanes_.length_mm, v);
     const MaskF ends = hn::Not(hn::Lt(start, length));
 
-    const I cell[3] = {load(lanes_.next_cell[0], v), load(lanes_.next_cell[1], v), load(lanes_.next_cell[2], v)};
+    const I cell[3] = {load(lanes_.next_cell[0], v), load(lanes_.next_cell[1], v),
+                       load(lanes_.next_cell[2], v)};
     const U word = load(lanes_.next_word, v);
     const U level = hn::And(word, hn::Set(kU, kLevelMask));
     const F mu_maj = hn::BitCast(kF, hn::AndNot(hn::Set(kU, kLevelMask), word));

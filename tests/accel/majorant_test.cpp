@@ -96,6 +96,55 @@ TYPED_TEST(Majorant, IsTheSupremumOverTheCellsVoxels) {
   }
 }
 
+float minimum_at(const MajorantView& view, Vec3f p_index) {
+  MajorantView minima = view;
+  minima.mu_maj = view.mu_min;
+  return majorant_at(minima, p_index);
+}
+
+TYPED_TEST(Majorant, MinimaHoldEveryLookUpAndAreExact) {
+  const double lower = std::is_signed_v<TypeParam> ? -1000 : 0, upper = sizeof(TypeParam) > 1 ? 3000 : 255;
+  const Volume volume = mixed_volume<TypeParam>({33, 26, 21}, lower, upper);
+  const GridView grid = make_grid_view(volume);
+  Rng rng(45, 0, 0, 0);
+  for (const int cell_voxels : kCellSizes) {
+    CurvePoints points = test::random_curve(lower, upper, 5, 30, rng);
+    for (auto& point : points) point.second += 0.1;
+    const TransferFunction function(mu_t_function(points));
+    MajorantGrid majorants(grid, cell_voxels, CellMinima::kKept);
+    majorants.update(function);
+    const MajorantView view = majorants.view();
+    Rng place(46, 0, 0, 0);
+    for (int n = 0; n < 100000; ++n) {
+      const Vec3f p = test::random_point(volume, place);
+      const float mu_t = classify_mu_t(function.view(), sample_trilinear(grid, p));
+      ASSERT_GE(mu_t, minimum_at(view, p)) << "at " << p.x << " " << p.y << " " << p.z;
+    }
+    const ValueRangeGrid ranges = build_value_ranges(grid, cell_voxels);
+    for (std::size_t i = 0; i < ranges.ranges.size(); ++i)
+      ASSERT_NEAR(view.mu_min[i], test::curve_minimum(points, ranges.ranges[i].lower, ranges.ranges[i].upper),
+                  1e-4);
+  }
+}
+
+TEST(Majorants, MinimaAreZeroWhereVoxelsAreNaNOrOverflow) {
+  const auto volume_with = [](float odd) {
+    return make_volume<float>(
+        {17, 5, 5}, [&](auto i, auto j, auto k) { return i == 6 && j == 2 && k == 2 ? odd : 1.0f; });
+  };
+  for (const float odd : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+                          -std::numeric_limits<float>::infinity(), 3e38f}) {
+    const Volume volume = volume_with(odd);
+    MajorantGrid majorants(make_grid_view(volume), 4, CellMinima::kKept);
+    majorants.update(TransferFunction(mu_t_function({{0, 0.5}})));
+    const MajorantView view = majorants.view();
+    ASSERT_EQ(view.cells[0], 4);
+    for (int cell = 0; cell < 4; ++cell) EXPECT_EQ(view.mu_min[cell], cell == 1 ? 0.0f : 0.5f) << odd;
+  }
+  MajorantGrid none(make_grid_view(volume_with(1)), 4);
+  EXPECT_EQ(none.view().mu_min, nullptr);
+}
+
 TEST(Majorants, SeeASpikeBetweenTwoVoxelValues) {
   const Volume volume =
       make_volume<std::uint8_t>({9, 9, 9}, [](auto i, auto j, auto k) { return (i + j + k) % 2 * 100; });

@@ -248,5 +248,33 @@ INSTANTIATE_TEST_SUITE_P(
       return std::string(std::get<0>(named.param).name) + "_limit" + std::to_string(std::get<1>(named.param));
     });
 
+TEST(Agreement, TrackersAndShadowRoulette) {
+  SceneDescription scene = blob_scene();
+  scene.environment->intensity = 0.4;
+  scene.lights = {area_light()};
+  scene.render.light_samples = 2;
+  for (const int limit : {1, 0}) {
+    scene.render.max_scatter = limit;
+    std::uint64_t seed = 20;
+    const auto with = [&](TransmittanceEstimator transmittance, FreeFlightSampling flight, double roulette) {
+      SceneDescription one = scene;
+      one.render.transmittance = transmittance;
+      one.render.free_flight = flight;
+      one.render.shadow_roulette = roulette;
+      one.render.seed = ++seed;
+      return estimate(one, two_blobs(), 200);
+    };
+    using enum TransmittanceEstimator;
+    using enum FreeFlightSampling;
+    const Estimate usual = with(kRatio, kDelta, 0);
+    expect_same_mean(usual, with(kResidual, kDelta, 0));
+    expect_same_mean(usual, with(kMarching, kDelta, 0));
+    expect_same_mean(usual, with(kRatio, kDecomposition, 0));
+    const Estimate fewer = with(kRatio, kDelta, 2);
+    expect_same_mean(usual, fewer);
+    EXPECT_LT(fewer.counters.shadow_rays, 0.8 * usual.counters.shadow_rays);
+  }
+}
+
 }  // namespace
 }  // namespace voxlume::test

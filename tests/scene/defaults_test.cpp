@@ -156,5 +156,27 @@ TEST(Compile, RefusesWhatIsNotBuilt) {
   }
 }
 
+TEST(Compile, EstimatorsWithMinimaTakeMacrocellsAndScalarCode) {
+  const Volume phantom = make_head_phantom();
+  const VolumeStatistics statistics = compute_statistics(make_grid_view(phantom));
+  SceneDescription scene = resolve({}, phantom, statistics);
+  scene.render.transmittance = TransmittanceEstimator::kResidual;
+  const CompiledScene residual(scene, phantom, statistics);
+  EXPECT_EQ(residual.view().simd, SimdTarget::kScalar);
+  EXPECT_EQ(residual.view().medium.accelerator.kind, AcceleratorKind::kMacrocell);
+  EXPECT_NE(residual.view().medium.accelerator.macrocell.mu_min, nullptr);
+  scene.render.accelerator = "hierarchy";
+  try {
+    const CompiledScene compiled(scene, phantom, statistics);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kUnsupported);
+    EXPECT_THAT(error.what(), HasSubstr("/render/accelerator"));
+  }
+  scene.render.transmittance = TransmittanceEstimator::kRatio;
+  EXPECT_EQ(CompiledScene(scene, phantom, statistics).view().medium.accelerator.kind,
+            AcceleratorKind::kHierarchy);
+}
+
 }  // namespace
 }  // namespace voxlume

@@ -46,6 +46,9 @@ inline SceneDescription full_scene() {
   s.render.hierarchy_thresholds = {0.25, 2};
   s.render.sampler = Sampler::kRandom;
   s.render.light_samples = 2;
+  s.render.transmittance = TransmittanceEstimator::kMarching;
+  s.render.free_flight = FreeFlightSampling::kDecomposition;
+  s.render.shadow_roulette = 0.25;
   s.render.simd = "scalar";
   s.render.light_sampling = "light";
   return s;

@@ -60,6 +60,12 @@ inline double curve_maximum(const CurvePoints& points, double lower, double uppe
   return maximum;
 }
 
+/// The infimum of the curve over [lower, upper].
+inline double curve_minimum(CurvePoints points, double lower, double upper) {
+  for (auto& point : points) point.second = -point.second;
+  return -curve_maximum(points, lower, upper);
+}
+
 /// A random function over [lower, upper]: ramps, steps, and needles much narrower than a unit.
 inline CurvePoints random_curve(double lower, double upper, double y_max, int segments, Rng& rng) {
   CurvePoints points;

@@ -13,8 +13,11 @@ constexpr int kGlobal = 1 << 20;  ///< cell edge that gives one majorant for the
 
 /// A volume, a function and a majorant grid that live as long as the medium made of them.
 struct TrackedMedium {
-  TrackedMedium(Volume volume_, const TransferDescription& description, int cell_voxels)
-      : volume(std::move(volume_)), function(description), majorants(make_grid_view(volume), cell_voxels) {
+  TrackedMedium(Volume volume_, const TransferDescription& description, int cell_voxels,
+                CellMinima minima = CellMinima::kNone)
+      : volume(std::move(volume_)),
+        function(description),
+        majorants(make_grid_view(volume), cell_voxels, minima) {
     majorants.update(function);
     medium = {make_grid_view(volume), function.view(), majorants.view()};
   }

@@ -9,11 +9,12 @@ namespace {
 using test::CurvePoints;
 using test::mu_t_function;
 
-/// The greatest mu_t that look-ups in [lower, upper] return: on a grid, at the knots and at their neighbours.
-float greatest_look_up(const TransferView& view, const CurvePoints& points, float lower, float upper) {
-  float greatest = 0;
+/// Looks mu_t up in [lower, upper]: on a grid, at the knots and at their neighbours.
+template <class Visit>
+void visit_look_ups(const TransferView& view, const CurvePoints& points, float lower, float upper,
+                    Visit&& visit) {
   const auto look = [&](float v) {
-    if (v >= lower && v <= upper) greatest = std::max(greatest, classify_mu_t(view, v));
+    if (v >= lower && v <= upper) visit(classify_mu_t(view, v));
   };
   look(lower);
   look(upper);
@@ -24,7 +25,18 @@ float greatest_look_up(const TransferView& view, const CurvePoints& points, floa
     look(std::nextafter(v, 1e38f));
     look(std::nextafter(v, -1e38f));
   }
+}
+
+float greatest_look_up(const TransferView& view, const CurvePoints& points, float lower, float upper) {
+  float greatest = 0;
+  visit_look_ups(view, points, lower, upper, [&](float mu_t) { greatest = std::max(greatest, mu_t); });
   return greatest;
+}
+
+float least_look_up(const TransferView& view, const CurvePoints& points, float lower, float upper) {
+  float least = std::numeric_limits<float>::infinity();
+  visit_look_ups(view, points, lower, upper, [&](float mu_t) { least = std::min(least, mu_t); });
+  return least;
 }
 
 TEST(MaxMuT, IsTheAnalyticSupremum) {
@@ -47,6 +59,37 @@ TEST(MaxMuT, IsTheAnalyticSupremum) {
           << lower << " " << upper;
     }
   }
+}
+
+TEST(MinMuT, IsTheAnalyticInfimumAndHoldsEveryLookUp) {
+  Rng rng(13, 0, 0, 0);
+  for (int f = 0; f < 200; ++f) {
+    const double scale = std::pow(10.0, f % 7 - 2);
+    const CurvePoints points = test::random_curve(-scale, scale, 20.0, 1 + f % 60, rng);
+    const TransferFunction function(mu_t_function(points));
+    for (int n = 0; n < 60; ++n) {
+      auto lower = static_cast<float>((2.4 * static_cast<double>(rng.next()) - 1.2) * scale);
+      auto upper = n % 5 == 1
+                       ? lower
+                       : lower + static_cast<float>(scale * std::pow(static_cast<double>(rng.next()), 4));
+      if (n % 5 == 3) upper = static_cast<float>(points[static_cast<std::size_t>(n) % points.size()].first);
+      if (lower > upper) std::swap(lower, upper);
+      const float minimum = function.min_mu_t(lower, upper);
+      ASSERT_LE(minimum, least_look_up(function.view(), points, lower, upper)) << lower << " " << upper;
+      ASSERT_NEAR(minimum, test::curve_minimum(points, lower, upper), 80 * 4 * 1.2e-7)
+          << lower << " " << upper;
+    }
+  }
+}
+
+TEST(MinMuT, OddRanges) {
+  const float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+  const TransferFunction function(mu_t_function({{0, 1}, {10, 3}, {20, 2}}));
+  EXPECT_EQ(function.min_mu_t(5, 4), 0.0f);
+  EXPECT_EQ(function.min_mu_t(nan, 4), 0.0f);
+  EXPECT_EQ(function.min_mu_t(-inf, 4), 0.0f);
+  EXPECT_EQ(function.min_mu_t(-1e37f, 1e37f), 1.0f);
+  EXPECT_EQ(function.min_mu_t(12, 30), 2.0f);
 }
 
 TEST(MaxMuT, OfOpacityCurvesHoldsEveryLookUp) {
