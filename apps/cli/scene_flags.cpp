@@ -172,7 +172,7 @@ constexpr Row kRows[] = {
     {"--light-sampling", "NAME", "/render/light_sampling",
      "mis, light or direction: how scatterings gather light"},
     {"--denoise", "NAME", "/render/denoise", "none"},
-    {"--simd", "NAME", "/render/simd", "auto or scalar"},
+    {"--simd", "NAME", "/render/simd", "auto, scalar, sse4, avx2, avx512 or neon"},
     {"--accel", "NAME", "/render/accelerator", "auto, none, macrocell, octree, hierarchy or residency"},
     {"--important", "RANGE", "/render", "Not built yet", not_built},
     {"--visibility", "P,Q,R,LAMBDA", "/render", "Not built yet", not_built},

@@ -96,6 +96,8 @@ TEST_F(CliRefuses, Usage) {
 
 TEST_F(CliRefuses, Values) {
   expect_refused({
+      flags({"--simd", "mmx"}, "--simd: found \"mmx\", expected one of auto, scalar, sse4"),
+      flags({"--accel", "tree"}, "--accel: found \"tree\", expected one of auto, none, macrocell, octree"),
       flags({"--spp", "0"}, "--spp: found 0, expected a whole number in [1, "),
       flags({"--spp", "-5"}, "--spp: found -5"),
       flags({"--spp", "many"}, "--spp: found \"many\""),
@@ -145,9 +147,6 @@ TEST_F(CliRefuses, WhatIsNotBuiltYetByName) {
       flags({"--denoise", "wrls"}, "error: --denoise wrls is not built yet; available: none\n"),
       flags({"--denoise", "decoupled"}, "--denoise decoupled is not built yet; available: none"),
       flags({"--denoise", "svgf"}, "--denoise svgf is not built yet; available: none"),
-      flags({"--simd", "sse4"}, "--simd sse4 is not built yet; available: auto, scalar"),
-      flags({"--simd", "avx2"}, "--simd avx2 is not built yet"),
-      flags({"--simd", "avx512"}, "--simd avx512 is not built yet"),
       flags({"--turntable", "36"}, "--turntable is not built yet"),
       flags({"--important", "100:200"}, "--important is not built yet"),
       flags({"--visibility", "1,1,1,1"}, "--visibility is not built yet"),
