@@ -198,7 +198,9 @@ TEST(Sampling, SobolHasTheMeanOfRandomAndLessVariance) {
   const auto [random, random_variance] = means(Sampler::kRandom);
   EXPECT_LT(std::abs(welch_z(sobol, random)), 4);
   // The first distance is a tentative one: coarse majorants leave it little to say.
-  if (!std::getenv("VOXLUME_TEST_ACCELERATOR")) EXPECT_LT(sobol_variance, 0.9 * random_variance);
+  if (!std::getenv("VOXLUME_TEST_ACCELERATOR")) {
+    EXPECT_LT(sobol_variance, 0.9 * random_variance);
+  }
 }
 
 }  // namespace
