@@ -33,9 +33,7 @@ float power_heuristic(float pdf, float other) noexcept {
 CameraPath::Wait CameraPath::begin(const SceneView& scene, const PrimaryRay& primary,
                                    TraceCounters& counters) noexcept {
   rng_ = primary.rng;
-  pixel_seed_ = primary.pixel_seed;
-  sample_ = primary.sample;
-  u_light_ = primary.u_light;
+  first_ = primary.first;
   px_ = primary.px;
   py_ = primary.py;
   origin_world_ = primary.origin_world;
@@ -51,10 +49,11 @@ CameraPath::Wait CameraPath::begin(const SceneView& scene, const PrimaryRay& pri
   return primary.enters ? Wait::kFlight : end_flight(scene, {}, counters);
 }
 
-/// Two dimensions of the sample: stratified at the first scattering, independent later.
-UnitPair CameraPath::draw_pair(const SceneView& scene, SobolPair pair) noexcept {
-  if (depth_ == 0 && scene.sampler == Sampler::kSobol) return sobol_pair(pixel_seed_, sample_, pair);
-  const float u0 = rng_.next(), u1 = rng_.next();
+/// At the first scattering a stratified number, if there is one; later the stream's.
+float CameraPath::draw(float first) noexcept { return depth_ == 0 && first >= 0 ? first : rng_.next(); }
+
+UnitPair CameraPath::draw(UnitPair first) noexcept {
+  const float u0 = draw(first.u0), u1 = draw(first.u1);
   return {u0, u1};
 }
 
@@ -70,7 +69,7 @@ CameraPath::Wait CameraPath::end() noexcept {
 
 CameraPath::Wait CameraPath::end_flight(const SceneView& scene, const Collision& collision,
                                         TraceCounters& counters) noexcept {
-  if (depth_ > 0) collect_emitters(scene, collision);
+  if (depth_ > 0) radiance_ += met_emitters(scene, collision);
   if (!collision.real) {
     if (depth_ == 0) radiance_ = background(scene);
     return end();
@@ -102,16 +101,18 @@ CameraPath::Wait CameraPath::end_flight(const SceneView& scene, const Collision&
 }
 
 /// Light met along a sampled direction before its collision: lights have no body, they only add.
-void CameraPath::collect_emitters(const SceneView& scene, const Collision& collision) noexcept {
-  if (scene.light_sampling == LightSampling::kLight) return;
+Vec3f CameraPath::met_emitters(const SceneView& scene, const Collision& collision) const noexcept {
+  Vec3f met(0);
+  if (scene.light_sampling == LightSampling::kLight) return met;
   const auto add = [&](const LightHit& hit) {
     const float weight = scene.light_sampling == LightSampling::kDirection
                              ? 1.0f
                              : power_heuristic(direction_pdf_, hit.pdf * hit_samples_);
-    radiance_ += throughput_ * hit.radiance * weight;
+    met += throughput_ * hit.radiance * weight;
   };
   visit_rect_hits(scene.lights, origin_world_, direction_world_, collision.t_mm, add);
   if (!collision.real) add(environment_hit(scene.lights, direction_world_));
+  return met;
 }
 
 /// What a camera ray that meets nothing sees.
@@ -134,7 +135,7 @@ Vec3f CameraPath::background(const SceneView& scene) noexcept {
 
 /// Next-event estimation: light from sampled emitters, scattered back along the path.
 CameraPath::Wait CameraPath::sample_direct_light(const SceneView& scene, TraceCounters& counters) noexcept {
-  u_pick_ = depth_ == 0 && u_light_ >= 0 ? u_light_ : rng_.next();
+  u_pick_ = draw(first_.u_light);
   light_samples_left_ = light_samples(scene);
   return next_light_sample(scene, counters);
 }
@@ -143,7 +144,8 @@ CameraPath::Wait CameraPath::next_light_sample(const SceneView& scene, TraceCoun
   const auto count = static_cast<float>(light_samples(scene));
   while (light_samples_left_ > 0) {
     const auto stratum = static_cast<float>(--light_samples_left_);
-    const auto [u0, u1] = draw_pair(scene, SobolPair::kFirstLight);
+    const bool last = light_samples_left_ == 0;  // the one that the stratified numbers are for
+    const auto [u0, u1] = draw(last ? first_.light : UnitPair{-1, -1});
     const LightSample light = sample_light(scene.lights, p_world_, (stratum + u_pick_) / count, u0, u1);
     if (!(light.pdf > 0)) continue;
     const ScatterValue scattered = eval_scatter(point_, choice_, -direction_world_, light.wi);
@@ -157,6 +159,7 @@ CameraPath::Wait CameraPath::next_light_sample(const SceneView& scene, TraceCoun
     if (!casts_shadow_ray(scene)) continue;
     ++counters.shadow_rays;
     ray_ = visible_part(scene, p_world_, light.wi, light.distance_mm, !scene.clip_blocks_light);
+    if (last && depth_ == 0) ray_.u_depth = first_.u_shadow_depth;
     if (enters()) return Wait::kTransmittance;
     radiance_ += unshadowed_;
   }
@@ -166,7 +169,8 @@ CameraPath::Wait CameraPath::next_light_sample(const SceneView& scene, TraceCoun
 CameraPath::Wait CameraPath::end_shadow_ray(const SceneView& scene, float transmittance,
                                             TraceCounters& counters) noexcept {
   radiance_ += unshadowed_ * transmittance;
-  return next_light_sample(scene, counters);
+  const bool was_last_flight = scene.max_scatter > 0 && depth_ == scene.max_scatter;
+  return was_last_flight ? end() : next_light_sample(scene, counters);
 }
 
 /// The probability of following the direction that is drawn at the present scattering.
@@ -197,7 +201,7 @@ CameraPath::Wait CameraPath::scatter(const SceneView& scene, TraceCounters& coun
   const float share = flight_share(scene);
   if (share < 1 && rng_.next() >= share) return end();
   const float u_lobe = rng_.next();
-  const auto [u0, u1] = draw_pair(scene, SobolPair::kFirstDirection);
+  const auto [u0, u1] = draw(first_.direction);
   const ScatterSample sample = sample_scatter(point_, choice_, -direction_world_, u_lobe, u0, u1);
   if (!(sample.pdf > 0)) return end();
   throughput_ *= sample.value / (sample.pdf * share);
@@ -207,7 +211,22 @@ CameraPath::Wait CameraPath::scatter(const SceneView& scene, TraceCounters& coun
   hit_samples_ = static_cast<float>(light_samples(scene)) / share;
   if (!(max_component(throughput_) > 0) || !survives()) return end();
   ++depth_;
+  if (scene.max_scatter > 0 && depth_ == scene.max_scatter && !scene.matter_emits)
+    return reach_lights(scene, counters);
   return fly(scene, counters);
+}
+
+/// After the last scattering it does not matter where a flight ends, but what reaches it: an estimate of the
+/// transmittance tells with less variance.
+CameraPath::Wait CameraPath::reach_lights(const SceneView& scene, TraceCounters& counters) noexcept {
+  bool meets_rect = false;  // at its own distance, which takes a flight
+  visit_rect_hits(scene.lights, origin_world_, direction_world_, kInfinity,
+                  [&](const LightHit&) { meets_rect = true; });
+  if (meets_rect) return fly(scene, counters);
+  unshadowed_ = met_emitters(scene, {});
+  if (!(max_component(unshadowed_) > 0)) return end();
+  ray_ = visible_part(scene, origin_world_, direction_world_, kInfinity, !scene.clip_blocks_light);
+  return enters() ? Wait::kTransmittance : end_shadow_ray(scene, 1, counters);
 }
 
 /// Russian roulette, whatever the scattering limit.

@@ -4,7 +4,6 @@
 #include "integrator/primary_ray.h"
 #include "integrator/scene_view.h"
 #include "material/scatter.h"
-#include "sampling/sobol.h"
 #include "tracking/tracking.h"
 
 namespace voxlume {
@@ -35,24 +34,25 @@ class CameraPath {
   const PixelSample& sample() const noexcept { return out_; }
 
  private:
-  UnitPair draw_pair(const SceneView& scene, SobolPair pair) noexcept;
+  float draw(float first) noexcept;
+  UnitPair draw(UnitPair first) noexcept;
   bool enters() const noexcept { return ray_.t_near < ray_.t_far; }
   Wait fly(const SceneView& scene, TraceCounters& counters) noexcept;
   Wait end() noexcept;
-  void collect_emitters(const SceneView& scene, const Collision& collision) noexcept;
+  Vec3f met_emitters(const SceneView& scene, const Collision& collision) const noexcept;
   Vec3f background(const SceneView& scene) noexcept;
   Wait sample_direct_light(const SceneView& scene, TraceCounters& counters) noexcept;
   Wait next_light_sample(const SceneView& scene, TraceCounters& counters) noexcept;
   int light_samples(const SceneView& scene) const noexcept { return depth_ == 0 ? scene.light_samples : 1; }
   float flight_share(const SceneView& scene) const noexcept;
   Wait scatter(const SceneView& scene, TraceCounters& counters) noexcept;
+  Wait reach_lights(const SceneView& scene, TraceCounters& counters) noexcept;
   bool survives() noexcept;
   bool casts_shadow_ray(const SceneView& scene) noexcept;
 
   Rng rng_;
   TrackRay ray_;
-  std::uint32_t pixel_seed_ = 0, sample_ = 0;
-  float u_light_ = -1;
+  FirstNumbers first_;
   float px_ = 0, py_ = 0;
   Vec3f origin_world_, direction_world_;
   Vec3f throughput_;

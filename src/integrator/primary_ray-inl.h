@@ -99,22 +99,23 @@ class PrimaryRayVector {
     const std::uint32_t picture = sobol_picture_seed(scene_.seed, scene_.frame);
     const auto pixel_seed = vector_mix_bits(kU, hn::Xor(hn::BitCast(kU, pixel), hn::Set(kU, picture)));
     auto rng = seed_vector_rng(kF, scene_.seed, scene_.frame, hn::BitCast(kU, pixel), sample);
-    F image0, image1, u_flight = set(-1.0f), u_light = set(-1.0f);
+    F image[2], flight[4], scattering[4];
     if (scene_.sampler == Sampler::kSobol) {
-      vector_sobol_pair(kF, pixel_seed, sample, SobolPair::kImage, image0, image1);
-      vector_sobol_pair(kF, pixel_seed, sample, SobolPair::kFirstFlight, u_flight, u_light);
+      vector_sobol_quad(kF, pixel_seed, sample, SobolSet::kCamera, image);
+      vector_sobol_quad(kF, pixel_seed, sample, SobolSet::kFirstFlight, flight);
+      vector_sobol_quad(kF, pixel_seed, sample, SobolSet::kFirstScattering, scattering);
     } else {
-      image0 = rng.next(kF);
-      image1 = rng.next(kF);
-      rng.next(kF);  // the lens
-      rng.next(kF);
+      for (F& u : image) u = rng.next(kF);
+      for (int i = 0; i < 2; ++i) rng.next(kF);  // the lens
+      for (int i = 0; i < 4; ++i) flight[i] = scattering[i] = set(-1.0f);
     }
     const F half = set(0.5f);
-    const F px = hn::Add(hn::Add(hn::ConvertTo(kF, x), half), sample_filter(image0));
-    const F py = hn::Add(hn::Add(hn::ConvertTo(kF, y), half), sample_filter(image1));
-    hn::Store(pixel_seed, kU, batch_.pixel_seed.data() + v);
-    hn::Store(u_flight, kF, batch_.u_flight.data() + v);
-    hn::Store(u_light, kF, batch_.u_light.data() + v);
+    const F px = hn::Add(hn::Add(hn::ConvertTo(kF, x), half), sample_filter(image[0]));
+    const F py = hn::Add(hn::Add(hn::ConvertTo(kF, y), half), sample_filter(image[1]));
+    for (int i = 0; i < 4; ++i) {
+      hn::Store(flight[i], kF, batch_.first_flight[i].data() + v);
+      hn::Store(scattering[i], kF, batch_.first_scattering[i].data() + v);
+    }
     hn::Store(rng.s0, kU, batch_.rng[0].data() + v);
     hn::Store(rng.s1, kU, batch_.rng[1].data() + v);
     hn::Store(rng.s2, kU, batch_.rng[2].data() + v);

@@ -9,7 +9,6 @@
 
 #include <limits>
 
-#include "sampling/sobol.h"
 #include "sampling/warp.h"
 
 namespace voxlume {
@@ -19,30 +18,26 @@ PrimaryRay make_primary_ray(const SceneView& scene, int x, int y, std::uint32_t 
       static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(scene.width) + static_cast<std::uint32_t>(x);
   PrimaryRay out{};
   out.rng = Rng(scene.seed, scene.frame, pixel, sample);
-  out.pixel_seed = sobol_pixel_seed(scene.seed, scene.frame, pixel);
-  out.sample = sample;
-  UnitPair image, lens, flight{-1, -1};
+  UnitQuad image{};  // and the lens
   if (scene.sampler == Sampler::kSobol) {
-    image = sobol_pair(out.pixel_seed, sample, SobolPair::kImage);
-    lens = scene.camera.aperture_radius_mm > 0 ? sobol_pair(out.pixel_seed, sample, SobolPair::kLens)
-                                               : UnitPair{};
-    flight = sobol_pair(out.pixel_seed, sample, SobolPair::kFirstFlight);
+    const std::uint32_t pixel_seed = sobol_pixel_seed(scene.seed, scene.frame, pixel);
+    image = sobol_quad(pixel_seed, sample, SobolSet::kCamera);
+    const UnitQuad f = sobol_quad(pixel_seed, sample, SobolSet::kFirstFlight);
+    const UnitQuad s = sobol_quad(pixel_seed, sample, SobolSet::kFirstScattering);
+    out.first = {f[0], f[1], f[2], f[3], {s[0], s[1]}, {s[2], s[3]}};
   } else {
-    image.u0 = out.rng.next();
-    image.u1 = out.rng.next();
-    lens.u0 = out.rng.next();
-    lens.u1 = out.rng.next();
+    for (float& u : image) u = out.rng.next();
   }
-  out.u_light = flight.u1;
-  out.px = x + 0.5f + sample_filter(scene.filter, scene.filter_radius_px, image.u0);
-  out.py = y + 0.5f + sample_filter(scene.filter, scene.filter_radius_px, image.u1);
-  const CameraRay camera = camera_ray(scene.camera, out.px, out.py, lens.u0, lens.u1);
+  out.px = x + 0.5f + sample_filter(scene.filter, scene.filter_radius_px, image[0]);
+  out.py = y + 0.5f + sample_filter(scene.filter, scene.filter_radius_px, image[1]);
+  const CameraRay camera = camera_ray(scene.camera, out.px, out.py, image[2], image[3]);
   out.origin_world = camera.origin;
   out.direction_world = camera.direction;
   const bool clipped = true;
   out.track =
       visible_part(scene, camera.origin, camera.direction, std::numeric_limits<float>::infinity(), clipped);
-  out.track.first_u = flight.u0;
+  out.track.u_collision = out.first.u_collision;
+  out.track.u_depth = out.first.u_depth;
   out.enters = out.track.t_near < out.track.t_far;
   return out;
 }

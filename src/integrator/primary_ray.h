@@ -4,15 +4,27 @@
 
 #include "integrator/scene_view.h"
 #include "sampling/rng.h"
+#include "sampling/sobol.h"
 
 namespace voxlume {
 
+/// The sample's numbers that are stratified against those of its pixel's other samples.
+struct FirstNumbers {
+  /// SobolSet::kFirstFlight: where the flight collides (TrackRay::u_collision), the shadow ray's first
+  /// optical depth, which light it is cast to, the flight's first optical depth.
+  float u_collision = -1, u_shadow_depth = -1, u_light = -1, u_depth = -1;
+  /// SobolSet::kFirstScattering.
+  UnitPair light{-1, -1}, direction{-1, -1};
+  bool operator==(const FirstNumbers&) const = default;
+};
+
 /// Where a camera sample looks.
 struct PrimaryRay {
-  Rng rng;                           ///< of the sample, past what was drawn here
-  std::uint32_t pixel_seed, sample;  ///< of sobol_pair
-  float u_light;                     ///< which light the first scattering takes; negative: drawn from rng
-  float px, py;                      ///< image point, from the top left corner
+  Rng rng;  ///< of the sample, past what was drawn here
+  /// What the path up to its first shadow ray takes instead of its stream's numbers; negative: it takes
+  /// those.
+  FirstNumbers first;
+  float px, py;  ///< image point, from the top left corner
   Vec3f origin_world, direction_world;
   TrackRay track;  ///< the part inside the visible region
   bool enters;     ///< false: there is none
@@ -32,8 +44,8 @@ struct alignas(64) PrimaryRayBatch {
   alignas(64) Column<std::int32_t> x{}, y{}, sample{};
   // Filled.
   alignas(64) Column<std::uint32_t> rng[4]{};
-  alignas(64) Column<std::uint32_t> pixel_seed{};
-  alignas(64) Column<float> px{}, py{}, u_flight{}, u_light{};
+  alignas(64) Column<float> first_flight[4]{}, first_scattering[4]{};  ///< in the order of FirstNumbers
+  alignas(64) Column<float> px{}, py{};
   alignas(64) Column<float> origin_world[3]{}, direction_world[3]{};
   alignas(64) Column<float> origin_index[3]{}, direction_index[3]{};
   alignas(64) Column<float> t_near{}, t_far{};
@@ -41,15 +53,24 @@ struct alignas(64) PrimaryRayBatch {
   PrimaryRay at(int i) const noexcept {
     const auto vec = [i](const Column<float>(&a)[3]) { return Vec3f(a[0][i], a[1][i], a[2][i]); };
     return {Rng(std::array{rng[0][i], rng[1][i], rng[2][i], rng[3][i]}),
-            pixel_seed[i],
-            static_cast<std::uint32_t>(sample[i]),
-            u_light[i],
+            first_numbers(i),
             px[i],
             py[i],
             vec(origin_world),
             vec(direction_world),
-            {{vec(origin_index), vec(direction_index)}, t_near[i], t_far[i], u_flight[i]},
+            {{vec(origin_index), vec(direction_index)},
+             t_near[i],
+             t_far[i],
+             first_flight[0][i],
+             first_flight[3][i]},
             t_near[i] < t_far[i]};
+  }
+
+ private:
+  FirstNumbers first_numbers(int i) const noexcept {
+    const auto& f = first_flight;
+    const auto& s = first_scattering;
+    return {f[0][i], f[1][i], f[2][i], f[3][i], {s[0][i], s[1][i]}, {s[2][i], s[3][i]}};
   }
 };
 

@@ -57,6 +57,7 @@ struct SceneView {
   std::int32_t light_samples = 1;  ///< at the first scattering; later ones take one
   float shadow_roulette = 0;       ///< times the path's first shadow ray; 0: every shadow ray is cast
   LightSampling light_sampling = LightSampling::kMis;
+  bool matter_emits = false;
   /// Whether a flight after the last scattering can meet anything that emits.
   bool last_flight_collects = true;
 };

@@ -100,22 +100,36 @@ hn::Vec<DU> vector_pascal_product(DU du, hn::Vec<DU> x) {
   return hn::Xor(x, hn::ShiftRight<16>(hn::And(x, hn::Set(du, 0xffff0000u))));
 }
 
-/// sobol_pair; pixel_seed as sobol_pixel_seed gives it.
-template <class D>
-void vector_sobol_pair(D d, hn::Vec<hn::RebindToUnsigned<D>> pixel_seed,
-                       hn::Vec<hn::RebindToUnsigned<D>> sample, SobolPair pair, hn::Vec<D>& u0,
-                       hn::Vec<D>& u1) {
+/// The sum of the columns that the bits of `index` choose.
+template <class DU>
+hn::Vec<DU> vector_column_sum(DU du, const std::uint32_t (&columns)[32], hn::Vec<DU> index) {
+  const hn::RebindToSigned<DU> di;
+  auto sum = hn::Zero(du);
+  for (int j = 31; j >= 0; --j) {
+    const auto chosen = hn::BitCast(du, hn::BroadcastSignBit(hn::BitCast(di, index)));
+    sum = hn::Xor(sum, hn::And(chosen, hn::Set(du, columns[j])));
+    index = hn::Add(index, index);
+  }
+  return sum;
+}
+
+/// The first kCount numbers of sobol_quad; pixel_seed as sobol_pixel_seed gives it.
+template <class D, int kCount>
+void vector_sobol_quad(D d, hn::Vec<hn::RebindToUnsigned<D>> pixel_seed,
+                       hn::Vec<hn::RebindToUnsigned<D>> sample, SobolSet set, hn::Vec<D> (&u)[kCount]) {
   const hn::RebindToUnsigned<D> du;
   const auto seed = vector_mix_bits(
-      du, hn::Add(pixel_seed, hn::Set(du, static_cast<std::uint32_t>(pair) * kPhiloxKeyStep0)));
+      du, hn::Add(pixel_seed, hn::Set(du, static_cast<std::uint32_t>(set) * kPhiloxKeyStep0)));
   const auto index =
       vector_reverse_bits(du, vector_scramble_reversed(du, vector_reverse_bits(du, sample), seed));
-  const auto bits0 =
-      vector_scramble_reversed(du, index, vector_mix_bits(du, hn::Xor(seed, hn::Set(du, 0x55555555u))));
-  const auto bits1 = vector_scramble_reversed(du, vector_pascal_product(du, index),
-                                              vector_mix_bits(du, hn::Xor(seed, hn::Set(du, 0xaaaaaaaau))));
-  u0 = vector_unit_float(d, vector_reverse_bits(du, bits0));
-  u1 = vector_unit_float(d, vector_reverse_bits(du, bits1));
+  for (int i = 0; i < kCount; ++i) {
+    const auto point = i == 0   ? index
+                       : i == 1 ? vector_pascal_product(du, index)
+                       : i == 2 ? vector_column_sum(du, kSobolColumns.third, index)
+                                : vector_column_sum(du, kSobolColumns.fourth, index);
+    const auto own = vector_mix_bits(du, hn::Xor(seed, hn::Set(du, kSobolDimensionSeeds[i])));
+    u[i] = vector_unit_float(d, vector_reverse_bits(du, vector_scramble_reversed(du, point, own)));
+  }
 }
 
 #if HWY_TARGET != HWY_SCALAR

@@ -227,8 +227,9 @@ void CompiledScene::compile_image() {
   view_.light_samples = render.light_samples;
   view_.shadow_roulette = static_cast<float>(render.shadow_roulette);
   view_.light_sampling = light_sampling(render.light_sampling);
+  view_.matter_emits = transfer_.emits();
   view_.last_flight_collects =
-      transfer_.emits() || (view_.light_sampling != LightSampling::kLight &&
+      view_.matter_emits || (view_.light_sampling != LightSampling::kLight &&
                             (view_.lights.has_environment || view_.lights.rect_count > 0));
 }
 

@@ -22,7 +22,7 @@ struct alignas(64) Lanes {
   alignas(64) PerLane<float> origin[3]{};     ///< index space; from kStart on inside the domain
   alignas(64) PerLane<float> direction[3]{};  ///< index units per mm
   alignas(64) PerLane<float> length_mm{};
-  alignas(64) PerLane<float> first_u{};  ///< as TrackRay::first_u
+  alignas(64) PerLane<float> u_collision{}, u_depth{};  ///< as in TrackRay
 
   // Results, with kDone.
   alignas(64) PerLane<std::uint32_t> is_real{};  ///< of a free flight: all ones where it collided
@@ -34,6 +34,7 @@ struct alignas(64) Lanes {
 
   // The tracker's own.
   alignas(64) PerLane<float> inverse[3]{};
+  alignas(64) PerLane<float> threshold{};  ///< transmittance below which the flight ends or roulette sets in
   alignas(64) PerLane<float> tau{}, mu_maj{}, run_mm{}, exit_mm{};
   alignas(64) PerLane<std::int32_t> cell[3]{}, next_cell[3]{};
   alignas(64) PerLane<std::uint32_t> word{}, next_word{};
@@ -45,7 +46,8 @@ struct alignas(64) Lanes {
       origin[a][lane] = from[a];
       direction[a][lane] = track.ray.direction_index[a];
     }
-    first_u[lane] = track.first_u;
+    u_collision[lane] = track.u_collision;
+    u_depth[lane] = track.u_depth;
     length_mm[lane] = track.t_far - track.t_near;
     is_shadow[lane] = shadow ? ~0u : 0u;
     for (int i = 0; i < 4; ++i) rng[i][lane] = stream.state()[i];

@@ -22,7 +22,9 @@ struct IndexRay {
 struct TrackRay {
   IndexRay ray;
   float t_near = 0, t_far = 0;
-  float first_u = -1;  ///< the first random number; negative: the ray's stream gives that too
+  /// Random numbers in [0, 1) that the ray's stream gives where they are negative: of a free flight's
+  /// threshold, and of the first optical depth.
+  float u_collision = -1, u_depth = -1;
 };
 
 inline IndexRay to_index_ray(const GridView& grid, Vec3f origin_world, Vec3f direction_world) noexcept {

@@ -9,7 +9,7 @@ float estimate_transmittance_residual(const Medium& medium, const TrackRay& trac
                                       TrackingCounters& counters) noexcept {
   const WalkRay ray = to_walk_ray(medium, track);
   float transmittance = 1;
-  float tau = sample_optical_depth(track.first_u >= 0 ? track.first_u : rng.next());
+  float tau = sample_optical_depth(track.u_depth >= 0 ? track.u_depth : rng.next());
   with_walk(medium.accelerator, ray.origin, ray.direction, ray.length_mm, [&](auto& walk) {
     MajorantSegment segment;
     while (walk.next(segment)) {
@@ -39,7 +39,7 @@ float estimate_transmittance_residual(const Medium& medium, const TrackRay& trac
 Collision sample_free_flight_decomposed(const Medium& medium, const TrackRay& track, Rng& rng,
                                         TrackingCounters& counters) noexcept {
   const WalkRay ray = to_walk_ray(medium, track);
-  float tau = sample_optical_depth(track.first_u >= 0 ? track.first_u : rng.next());
+  float tau = sample_optical_depth(track.u_depth >= 0 ? track.u_depth : rng.next());
   float control_tau = -1;  // drawn where the control begins
   Collision collision;
   with_walk(medium.accelerator, ray.origin, ray.direction, ray.length_mm, [&](auto& walk) {

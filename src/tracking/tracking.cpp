@@ -11,8 +11,8 @@ template <class Visit>
 void visit_tentative_collisions(const Medium& medium, const TrackRay& track, Rng& rng,
                                 Visit&& visit) noexcept {
   const IndexRay& ray = track.ray;
-  const float t_near = track.t_near, t_far = track.t_far, first_u = track.first_u;
-  float tau = sample_optical_depth(first_u >= 0 ? first_u : rng.next());
+  const float t_near = track.t_near, t_far = track.t_far;
+  float tau = sample_optical_depth(track.u_depth >= 0 ? track.u_depth : rng.next());
   // From here on distances are counted from where the ray enters: far from the eye, t is coarser.
   const Box3f domain = medium.grid.index_box();
   const Vec3f origin = min(max(ray.origin_index + ray.direction_index * t_near, domain.lower), domain.upper);
@@ -47,12 +47,15 @@ void check_majorant(float mu_t, float mu_maj, TrackingCounters& counters) noexce
 Collision sample_free_flight(const Medium& medium, const TrackRay& ray, Rng& rng,
                              TrackingCounters& counters) noexcept {
   Collision collision;
+  const float threshold = collision_threshold(ray.u_collision >= 0 ? ray.u_collision : rng.next());
+  float transmittance = 1;
   visit_tentative_collisions(medium, ray, rng, [&](float t, Vec3f p_index, float mu_maj) {
     ++counters.steps;
     const float value = sample_trilinear(medium.grid, p_index);
     const float mu_t = classify_mu_t(medium.transfer, value);
     check_majorant(mu_t, mu_maj, counters);
-    if (rng.next() * mu_maj >= mu_t) return false;
+    transmittance *= 1.0f - mu_t / mu_maj;
+    if (!(transmittance < threshold)) return false;
     collision = {true, t, p_index, value};
     return true;
   });

@@ -23,8 +23,9 @@ struct Collision {
 };
 
 /// Delta (Woodcock) tracking on the ray: t has density mu_t(t) T(t). The residual optical depth is
-/// carried from cell to cell, which is exact by memorylessness. Draws two numbers per look-up, and one more
-/// at the start.
+/// carried from cell to cell, which is exact by memorylessness. The flight ends where the transmittance that
+/// ratio tracking would estimate falls below a threshold drawn once: the same as deciding at every look-up,
+/// with probability mu_t / mu_maj, but so one number, which can be stratified, places the collision.
 Collision sample_free_flight(const Medium& medium, const TrackRay& ray, Rng& rng,
                              TrackingCounters& counters) noexcept;
 
@@ -37,5 +38,8 @@ constexpr float kRouletteTransmittance = 0.1f;
 
 /// exp(1)-distributed optical depth from a multiple u of 2^-24 in [0,1).
 inline float sample_optical_depth(float u) noexcept { return negative_log(1.0f - u); }
+
+/// The transmittance below which a free flight has ended, in (0, 1].
+inline float collision_threshold(float u) noexcept { return 1.0f - u; }
 
 }  // namespace voxlume

@@ -102,6 +102,13 @@ class LaneTracker {
     return u;
   }
 
+  /// `given` where it is not negative, and numbers drawn for the rest of `where`.
+  F given_or_drawn(MaskF where, const Lanes::PerLane<float>& given, std::size_t v) {
+    const F u = load(given, v);
+    const MaskF draws = hn::And(where, hn::Lt(u, hn::Zero(kF)));
+    return hn::AllFalse(kF, draws) ? u : hn::IfThenElse(draws, draw(to_u(draws), v), u);
+  }
+
   /// sample_optical_depth.
   static F optical_depth(F u) { return vector_negative_log(kF, hn::Sub(hn::Set(kF, 1.0f), u)); }
 
@@ -135,10 +142,13 @@ class LaneTracker {
     }
     fetch_next_word(where_f, cell, v);
     store_where(where_f, length, lanes_.length_mm, v);
-    const F given_u = load(lanes_.first_u, v);
-    const MaskF draws = hn::And(where_f, hn::Lt(given_u, hn::Zero(kF)));
-    const F u = hn::IfThenElse(draws, draw(to_u(draws), v), given_u);
-    store_where(where_f, optical_depth(u), lanes_.tau, v);
+    // Of shadow rays the threshold is known.
+    const MaskF flight = hn::And(where_f, to_f(hn::Eq(load(lanes_.is_shadow, v), hn::Zero(kU))));
+    const F u_collision = given_or_drawn(flight, lanes_.u_collision, v);
+    const F threshold =
+        hn::IfThenElse(flight, hn::Sub(hn::Set(kF, 1.0f), u_collision), hn::Set(kF, kRouletteTransmittance));
+    store_where(where_f, threshold, lanes_.threshold, v);
+    store_where(where_f, optical_depth(given_or_drawn(where_f, lanes_.u_depth, v)), lanes_.tau, v);
     for (auto* zero : {&lanes_.mu_maj, &lanes_.run_mm, &lanes_.exit_mm, &lanes_.entered_mm})
       store_where(where_f, hn::Zero(kF), *zero, v);
     store_where(where_f, hn::Set(kF, 1.0f), lanes_.transmittance, v);
@@ -302,20 +312,23 @@ class LaneTracker {
     const MaskU violated = to_u(hn::And(where_f, hn::Gt(mu_t, mu_maj)));
     store(hn::Add(load(lanes_.violations, v), hn::IfThenElseZero(violated, one)), lanes_.violations, v);
 
-    const MaskU shadow = hn::Ne(load(lanes_.is_shadow, v), hn::Zero(kU));
-    const F roulette = hn::Set(kF, kRouletteTransmittance);
+    const F threshold = load(lanes_.threshold, v);
     F transmittance =
         hn::Mul(load(lanes_.transmittance, v), hn::Sub(hn::Set(kF, 1.0f), hn::Div(mu_t, mu_maj)));
-    const MaskU gambles = hn::And(shadow, to_u(hn::Not(hn::Ge(transmittance, roulette))));
-    const MaskU draws = hn::And(where, hn::Or(hn::Not(shadow), gambles));
-    const F u = hn::AllFalse(kU, draws) ? hn::Zero(kF) : draw(draws, v);
-    const MaskU real = hn::AndNot(shadow, to_u(hn::Not(hn::Ge(hn::Mul(u, mu_maj), mu_t))));
-    const MaskU dies = hn::And(gambles, to_u(hn::Ge(hn::Mul(u, roulette), transmittance)));
-    transmittance =
-        hn::IfThenElse(to_f(gambles), hn::IfThenElseZero(to_f(hn::Not(dies)), roulette), transmittance);
-    store_where(to_f(hn::And(where, shadow)), transmittance, lanes_.transmittance, v);
+    const MaskU low = hn::And(where, to_u(hn::Lt(transmittance, threshold)));
+    const MaskU shadow = hn::Ne(load(lanes_.is_shadow, v), hn::Zero(kU));
+    const MaskU gambles = hn::And(low, shadow), real = hn::AndNot(shadow, low);
+    MaskU done = real;
+    if (!hn::AllFalse(kU, gambles)) {
+      const F u = draw(gambles, v);
+      const MaskU dies = hn::And(gambles, to_u(hn::Ge(hn::Mul(u, threshold), transmittance)));
+      transmittance =
+          hn::IfThenElse(to_f(gambles), hn::IfThenElseZero(to_f(hn::Not(dies)), threshold), transmittance);
+      done = hn::Or(done, dies);
+    }
+    store_where(where_f, transmittance, lanes_.transmittance, v);
 
-    const MaskU done = hn::And(where, hn::Or(real, dies)), goes_on = hn::AndNot(done, where);
+    const MaskU goes_on = hn::AndNot(done, where);
     store_where(done, hn::IfThenElseZero(real, hn::Set(kU, ~0u)), lanes_.is_real, v);
     set_state(done, Lanes::kDone, v);
     if (hn::AllFalse(kU, goes_on)) return;

@@ -151,15 +151,14 @@ TEST(Simd, PrimaryRaysAreTheScalarOnes) {
           const PrimaryRay a = batch.at(i), b = make_primary_ray(scene->view(), batch.x[i], batch.y[i],
                                                                  static_cast<std::uint32_t>(batch.sample[i]));
           ASSERT_EQ(a.rng.state(), b.rng.state()) << mode.name;
-          ASSERT_EQ(a.pixel_seed, b.pixel_seed);
-          ASSERT_EQ(a.sample, b.sample);
-          ASSERT_EQ(a.u_light, b.u_light);
+          ASSERT_TRUE(a.first == b.first) << mode.name;
           ASSERT_EQ(a.px, b.px);
           ASSERT_EQ(a.py, b.py);
           ASSERT_EQ(a.origin_world, b.origin_world);
           ASSERT_EQ(a.direction_world, b.direction_world);
           ASSERT_EQ(a.enters, b.enters) << mode.name;
-          ASSERT_EQ(a.track.first_u, b.track.first_u);
+          ASSERT_EQ(a.track.u_collision, b.track.u_collision);
+          ASSERT_EQ(a.track.u_depth, b.track.u_depth);
           if (!a.enters) continue;
           ++entering;
           ASSERT_EQ(a.track.t_near, b.track.t_near);

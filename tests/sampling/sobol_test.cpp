@@ -10,8 +10,7 @@
 namespace voxlume {
 namespace {
 
-constexpr SobolPair kPairs[] = {SobolPair::kImage, SobolPair::kLens, SobolPair::kFirstFlight,
-                                SobolPair::kFirstLight, SobolPair::kFirstDirection};
+constexpr SobolSet kSets[] = {SobolSet::kCamera, SobolSet::kFirstFlight, SobolSet::kFirstScattering};
 
 TEST(Sobol, BitsAreReversed) {
   EXPECT_EQ(reverse_bits(1), 0x80000000u);
@@ -26,19 +25,40 @@ TEST(Sobol, SecondDimensionIsPascalsTriangle) {
   }
 }
 
+TEST(Sobol, FirstPointsAreThePublishedOnes) {
+  // Joe and Kuo's sequence in natural order, in 32nds.
+  constexpr int kPoints[8][4] = {{0, 0, 0, 0},   {16, 16, 16, 16}, {8, 24, 24, 24},  {24, 8, 8, 8},
+                                 {4, 20, 12, 4}, {20, 4, 28, 20},  {12, 12, 20, 28}, {28, 28, 4, 12}};
+  for (std::uint32_t i = 0; i < 8; ++i)
+    for (int d = 0; d < 4; ++d)
+      EXPECT_EQ(reverse_bits(sobol_reversed(i)[d]), static_cast<std::uint32_t>(kPoints[i][d]) << 27)
+          << i << ", " << d;
+}
+
+TEST(Sobol, EveryDimensionIsStratified) {
+  constexpr std::uint32_t kCount = 256;
+  for (const SobolSet set : kSets)
+    for (int d = 0; d < 4; ++d) {
+      std::set<int> cells;
+      for (std::uint32_t i = 512; i < 512 + kCount; ++i)
+        cells.insert(static_cast<int>(sobol_quad(sobol_pixel_seed(3, 1, 4), i, set)[d] * kCount));
+      EXPECT_EQ(cells.size(), kCount);
+    }
+}
+
 TEST(Sobol, EveryElementaryIntervalHasOnePoint) {
   // (0, m, 2)-nets in base 2, for aligned runs of 2^m samples.
   constexpr int kM = 6, kCount = 1 << kM;
   for (const std::uint32_t seed :
        {sobol_pixel_seed(1, 0, 0), sobol_pixel_seed(1, 0, 1), sobol_pixel_seed(9, 3, 70000)})
-    for (const SobolPair pair : kPairs)
+    for (const SobolSet set : kSets)
       for (const std::uint32_t begin : {0u, 64u, 4096u - 64u})
         for (int a = 0; a <= kM; ++a) {
           std::set<std::pair<int, int>> cells;
           for (std::uint32_t i = begin; i < begin + kCount; ++i) {
-            const UnitPair u = sobol_pair(seed, i, pair);
-            cells.emplace(static_cast<int>(u.u0 * static_cast<float>(1 << a)),
-                          static_cast<int>(u.u1 * static_cast<float>(1 << (kM - a))));
+            const UnitQuad u = sobol_quad(seed, i, set);
+            cells.emplace(static_cast<int>(u[0] * static_cast<float>(1 << a)),
+                          static_cast<int>(u[1] * static_cast<float>(1 << (kM - a))));
           }
           EXPECT_EQ(cells.size(), static_cast<std::size_t>(kCount));
         }
@@ -46,33 +66,36 @@ TEST(Sobol, EveryElementaryIntervalHasOnePoint) {
 
 TEST(Sobol, OneSampleOfManyPixelsIsUniform) {
   constexpr int kSide = 32, kDraws = 1 << 18;
-  for (const SobolPair pair : kPairs)
+  for (const SobolSet set : kSets)
     for (const std::uint32_t sample : {0u, 1u, 77u}) {
-      std::vector<double> observed(kSide * kSide), expected(kSide * kSide, double{kDraws} / (kSide * kSide));
+      const std::vector<double> expected(kSide * kSide, double{kDraws} / (kSide * kSide));
+      std::vector<double> observed[2] = {std::vector<double>(kSide * kSide),
+                                         std::vector<double>(kSide * kSide)};
       for (std::uint32_t pixel = 0; pixel < kDraws; ++pixel) {
-        const UnitPair u = sobol_pair(sobol_pixel_seed(5, 2, pixel), sample, pair);
-        ASSERT_TRUE(u.u0 >= 0 && u.u0 < 1 && u.u1 >= 0 && u.u1 < 1);
-        observed[static_cast<std::size_t>(u.u1 * kSide) * kSide + static_cast<std::size_t>(u.u0 * kSide)] +=
-            1;
+        const UnitQuad u = sobol_quad(sobol_pixel_seed(5, 2, pixel), sample, set);
+        for (const float x : u) ASSERT_TRUE(x >= 0 && x < 1);
+        for (int p = 0; p < 2; ++p)
+          observed[p][static_cast<std::size_t>(u[2 * p + 1] * kSide) * kSide +
+                      static_cast<std::size_t>(u[2 * p] * kSide)] += 1;
       }
-      EXPECT_GT(test::chi_square(observed, expected).p, test::significance(15));
+      for (const auto& pair : observed) EXPECT_GT(test::chi_square(pair, expected).p, test::significance(18));
     }
 }
 
-TEST(Sobol, PairsAndPixelsAreIndependent) {
-  // A dimension of one pair against a dimension of another, and of a pixel against its neighbour.
+TEST(Sobol, SetsAndPixelsAreIndependent) {
+  // A dimension of one set against a dimension of another, and of a pixel against its neighbour.
   constexpr int kSide = 32, kDraws = 1 << 18;
-  std::vector<double> pairs(kSide * kSide), pixels(kSide * kSide),
+  std::vector<double> sets(kSide * kSide), pixels(kSide * kSide),
       expected(kSide * kSide, double{kDraws} / (kSide * kSide));
   for (std::uint32_t i = 0; i < kDraws; ++i) {
     const std::uint32_t seed = sobol_pixel_seed(6, 0, 2 * i), next = sobol_pixel_seed(6, 0, 2 * i + 1);
-    const float a = sobol_pair(seed, 3, SobolPair::kFirstFlight).u0;
-    const float b = sobol_pair(seed, 3, SobolPair::kFirstLight).u0;
-    const float c = sobol_pair(next, 3, SobolPair::kFirstFlight).u0;
-    pairs[static_cast<std::size_t>(a * kSide) * kSide + static_cast<std::size_t>(b * kSide)] += 1;
+    const float a = sobol_quad(seed, 3, SobolSet::kFirstFlight)[0];
+    const float b = sobol_quad(seed, 3, SobolSet::kFirstScattering)[0];
+    const float c = sobol_quad(next, 3, SobolSet::kFirstFlight)[0];
+    sets[static_cast<std::size_t>(a * kSide) * kSide + static_cast<std::size_t>(b * kSide)] += 1;
     pixels[static_cast<std::size_t>(a * kSide) * kSide + static_cast<std::size_t>(c * kSide)] += 1;
   }
-  EXPECT_GT(test::chi_square(pairs, expected).p, test::significance(2));
+  EXPECT_GT(test::chi_square(sets, expected).p, test::significance(2));
   EXPECT_GT(test::chi_square(pixels, expected).p, test::significance(2));
 }
 

@@ -197,9 +197,9 @@ TEST(MappedFile, NameNeedNotBeText) {
 
 TEST(MappedFile, OnlyTheLimitGivenCounts) {
   const TemporaryFolder folder;
-  Volume volume;  // more than any machine has
+  Volume volume;  // half a TiB
   volume.type = VoxelType::kU16;
-  volume.size = {65536, 65536, 512};
+  volume.size = {65536, 65536, 64};
   const std::string header = ended(nrrd_header(volume));
   write_bytes(folder / "a.nrrd", header + "\x11\x22");
   fs::resize_file(folder / "a.nrrd", header.size() + volume.byte_count());
