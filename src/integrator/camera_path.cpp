@@ -18,7 +18,7 @@ constexpr float kEnding = 0.25f;
 
 /// After the last scattering a direction only adds to what the light samples found: following every other one
 /// takes about 0.9 of the time to the same error where lights are several, and costs nothing elsewhere.
-/// Lights in a mirror are found by directions alone.
+/// Lights in a mirror and most of the environment are found by directions alone.
 constexpr float kLastFlightShare = 0.5f;
 constexpr float kGlossyAlpha = 0.1f;
 
@@ -96,7 +96,8 @@ CameraPath::Wait CameraPath::end_flight(const SceneView& scene, const Collision&
   choice_ = scatter_choice(point_, -direction_world_);
   ++counters.scatterings;
   radiance_ += throughput_ * point_.albedo * scene.ambient;
-  if (scene.light_sampling == LightSampling::kDirection) return scatter(scene, counters);
+  if (scene.light_sampling == LightSampling::kDirection || scene.lights.pick.count == 0)
+    return scatter(scene, counters);
   return sample_direct_light(scene, counters);
 }
 
@@ -177,7 +178,8 @@ CameraPath::Wait CameraPath::end_shadow_ray(const SceneView& scene, float transm
 float CameraPath::flight_share(const SceneView& scene) const noexcept {
   const bool last = scene.max_scatter > 0 && depth_ + 1 == scene.max_scatter;
   const bool glossy = choice_.specular > 0 && point_.alpha < kGlossyAlpha;
-  return last && !glossy && scene.light_sampling == LightSampling::kMis ? kLastFlightShare : 1.0f;
+  const bool needed = glossy || scene.lights.has_environment || scene.light_sampling != LightSampling::kMis;
+  return last && !needed ? kLastFlightShare : 1.0f;
 }
 
 /// Russian roulette for shadow rays, in proportion to what they can add. The measure is the path's own first

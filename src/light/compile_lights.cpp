@@ -126,24 +126,37 @@ double importance(const Light& light, const SceneSphere& scene) {
   return emission * std::min(solid_angle, std::numbers::pi);
 }
 
+/// By row, the share of all directions that a texel covers.
+std::vector<double> texel_shares(int width, int height) {
+  std::vector<double> shares(static_cast<std::size_t>(height));
+  double above = 1;  // cosine of the row's upper edge
+  for (int row = 0; row < height; ++row) {
+    const double below = std::cos(std::numbers::pi * (row + 1) / height);
+    shares[static_cast<std::size_t>(row)] = 0.5 * (above - below) / width;
+    above = below;
+  }
+  return shares;
+}
+
 bool emits(Vec3f emission) { return max_component(emission) > 0.0f; }
 
 }  // namespace
 
 Lights::Lights(const std::vector<LightDescription>& lights, const EnvironmentDescription& environment,
-               const EnvironmentImage* image, const ViewFrame& camera, const SceneSphere& scene) {
+               const EnvironmentImage* image, const ViewFrame& camera, const SceneSphere& scene,
+               EnvironmentSamples samples) {
   for (std::size_t i = 0; i < lights.size(); ++i)
     lights_.push_back(compile_light(lights[i], camera, "/lights/" + std::to_string(i)));
   std::erase_if(lights_, [](const Light& light) { return !emits(light.emission); });
   const auto rects_end = std::stable_partition(
       lights_.begin(), lights_.end(), [](const Light& light) { return light.kind == LightKind::kRect; });
   rect_count_ = static_cast<int>(rects_end - lights_.begin());
-  compile_environment(environment, image, camera);
+  compile_environment(environment, image, camera, samples);
   compile_pick(scene);
 }
 
 void Lights::compile_environment(const EnvironmentDescription& d, const EnvironmentImage* image,
-                                 const ViewFrame& camera) {
+                                 const ViewFrame& camera, EnvironmentSamples samples) {
   const Vec3f scale(checked_emission(d.color, d.intensity, "/environment"));
   if (!std::isfinite(d.rotation_deg))
     refuse("/environment/rotation_deg", shown(d.rotation_deg) + ", expected a finite angle");
@@ -159,9 +172,11 @@ void Lights::compile_environment(const EnvironmentDescription& d, const Environm
   environment_.axis_z = Vec3f(z);
   if (image) {
     compile_image(*image, scale);
+    compile_choice(samples);
   } else {
     environment_.constant = scale;
     mean_environment_ = scale;
+    sampled_environment_ = samples == EnvironmentSamples::kWhole ? luminance(Vec3d(scale)) : 0.0;
   }
   has_environment_ = emits(mean_environment_);
 }
@@ -179,28 +194,32 @@ void Lights::compile_image(const EnvironmentImage& image, Vec3f scale) {
         std::sin(0.5 * std::numbers::pi * static_cast<double>(row) / static_cast<double>(height));
     cap_versine_[row] = static_cast<float>(2.0 * s * s);
   }
-  texels_.resize(width * height);
-  std::vector<double> weights(width * height);
-  Vec3d mean(0.0);
-  for (std::size_t row = 0; row < height; ++row) {
-    const double pi = std::numbers::pi, n = static_cast<double>(height), r = static_cast<double>(row);
-    const double share =
-        0.5 * (std::cos(pi * r / n) - std::cos(pi * (r + 1) / n)) / static_cast<double>(width);
-    for (std::size_t i = row * width; i < (row + 1) * width; ++i) {
-      Vec3f& texel = texels_[i];
-      texel = max(Vec3f(image.rgb[3 * i], image.rgb[3 * i + 1], image.rgb[3 * i + 2]) * scale, Vec3f(0.0f));
-      if (!is_finite(texel))
-        refuse("/environment/image", "found a non-finite value at column " + std::to_string(i % width) +
-                                         ", row " + std::to_string(row) + ", expected finite radiance");
-      // A texel that shines in any channel can be chosen.
-      weights[i] = share * luminance(Vec3d(texel));
-      mean += Vec3d(texel) * share;
-    }
-  }
-  mean_environment_ = Vec3f(mean);
-  texel_choice_ = Distribution2D(weights, image.width, image.height);
   environment_.width = image.width;
   environment_.height = image.height;
+  texels_.resize(width * height);
+  const std::vector<double> share = texel_shares(image.width, image.height);
+  Vec3d mean(0.0);
+  for (std::size_t i = 0; i < texels_.size(); ++i) {
+    Vec3f& texel = texels_[i];
+    texel = max(Vec3f(image.rgb[3 * i], image.rgb[3 * i + 1], image.rgb[3 * i + 2]) * scale, Vec3f(0.0f));
+    if (!is_finite(texel))
+      refuse("/environment/image", "found a non-finite value at column " + std::to_string(i % width) +
+                                       ", row " + std::to_string(i / width) + ", expected finite radiance");
+    mean += Vec3d(texel) * share[i / width];
+  }
+  mean_environment_ = Vec3f(mean);
+}
+
+void Lights::compile_choice(EnvironmentSamples samples) {
+  const auto width = static_cast<std::size_t>(environment_.width);
+  const double left_out = samples == EnvironmentSamples::kExcess ? luminance(Vec3d(mean_environment_)) : 0.0;
+  const std::vector<double> share = texel_shares(environment_.width, environment_.height);
+  std::vector<double> weights(texels_.size());
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    weights[i] = share[i / width] * std::max(0.0, luminance(Vec3d(texels_[i])) - left_out);
+    sampled_environment_ += weights[i];
+  }
+  texel_choice_ = Distribution2D(weights, environment_.width, environment_.height);
 }
 
 void Lights::compile_pick(const SceneSphere& scene) {
@@ -208,13 +227,14 @@ void Lights::compile_pick(const SceneSphere& scene) {
     throw Error(ErrorCode::kInternal, "", "lights need a finite scene sphere of positive radius");
   std::vector<double> weights;
   for (const Light& light : lights_) weights.push_back(importance(light, scene));
-  weights.push_back(has_environment_ ? std::numbers::pi * luminance(Vec3d(mean_environment_)) : 0.0);
-  const double count = static_cast<double>(lights_.size()) + (has_environment_ ? 1.0 : 0.0);
+  weights.push_back(std::numbers::pi * sampled_environment_);
+  const bool environment_sampled = sampled_environment_ > 0;
+  const double count = static_cast<double>(lights_.size()) + (environment_sampled ? 1.0 : 0.0);
   if (count == 0) return;
   double total = 0;
   for (double w : weights) total += w;
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    const bool emitting = i < lights_.size() || has_environment_;
+    const bool emitting = i < lights_.size() || environment_sampled;
     const double share = total > 0 ? weights[i] / total : 0.0;
     weights[i] = emitting ? 0.9 * share + 0.1 / count : 0.0;
   }

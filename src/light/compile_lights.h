@@ -15,6 +15,11 @@ struct SceneSphere {
   float radius_mm = 1;  ///< > 0
 };
 
+/// What of the environment light samples are drawn for. kExcess: only what is above its mean; directions that
+/// matter scatters to find the rest, a constant environment altogether, and lights that are hard to find get
+/// the samples ("MIS compensation", Karlik et al. 2019). For use with the directions alone.
+enum class EnvironmentSamples { kWhole, kExcess };
+
 /// The lights of a scene, validated and in LPS space. Owns the tables behind view().
 ///
 /// The environment's own axes are those of the world (x left, y posterior, z head), or of the camera (right,
@@ -23,15 +28,16 @@ struct SceneSphere {
 /// at -y moves toward +x.
 ///
 /// A light is picked with probability 0.9 * its share of the luminance of the irradiance at the sphere's
-/// centre (nearer lights counted as if on the sphere; the environment as pi * mean radiance) + 0.1 / n, n
-/// lights emitting.
+/// centre (nearer lights counted as if on the sphere; the environment as pi * mean radiance of what is
+/// sampled) + 0.1 / n, n lights emitting.
 class Lights {
  public:
   /// `image` may be null; it is multiplied by the environment's colour and intensity, and values below 0
   /// count as 0. Throws kBadParameter at "/lights/I/..." or "/environment/..." for missing, non-finite or
   /// out-of-range values.
   Lights(const std::vector<LightDescription>& lights, const EnvironmentDescription& environment,
-         const EnvironmentImage* image, const ViewFrame& camera, const SceneSphere& scene);
+         const EnvironmentImage* image, const ViewFrame& camera, const SceneSphere& scene,
+         EnvironmentSamples samples = EnvironmentSamples::kWhole);
 
   /// Valid while this lives, also after a move.
   LightsView view() const;
@@ -41,8 +47,9 @@ class Lights {
 
  private:
   void compile_environment(const EnvironmentDescription& description, const EnvironmentImage* image,
-                           const ViewFrame& camera);
+                           const ViewFrame& camera, EnvironmentSamples samples);
   void compile_image(const EnvironmentImage& image, Vec3f scale);
+  void compile_choice(EnvironmentSamples samples);
   void compile_pick(const SceneSphere& scene);
 
   std::vector<Light> lights_;
@@ -54,6 +61,7 @@ class Lights {
   Distribution2D texel_choice_;
   Distribution1D pick_;
   Vec3f mean_environment_{0, 0, 0};
+  double sampled_environment_ = 0;  ///< mean luminance of what light samples are drawn for
 };
 
 }  // namespace voxlume

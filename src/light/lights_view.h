@@ -35,7 +35,7 @@ struct LightsView {
   int rect_count = 0;
   bool has_environment = false;
   EnvironmentView environment;
-  /// Probabilities of the lights, then of the environment (index light_count). No bins: nothing emits.
+  /// Probabilities of the lights, then of the environment (index light_count). No bins: nothing to sample.
   Distribution1DView pick;
 };
 

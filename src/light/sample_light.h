@@ -71,12 +71,17 @@ inline LightSample sample_light(const LightsView& view, Vec3f p_world, float u_p
   return sample;
 }
 
+/// The probability with which sample_light takes the environment.
+inline float environment_probability(const LightsView& view) noexcept {
+  return view.pick.count == 0 ? 0.0f : bin_probability(view.pick, view.light_count);
+}
+
 /// What a ray that escapes collects from the environment; also its picture behind the volume. `direction` is
 /// unit.
 inline LightHit environment_hit(const LightsView& view, Vec3f direction) noexcept {
   if (!view.has_environment) return {Vec3f(0.0f), 0.0f};
   const EnvironmentSample e = eval_environment(view.environment, direction);
-  return {e.radiance, e.pdf * bin_probability(view.pick, view.light_count)};
+  return {e.radiance, e.pdf * environment_probability(view)};
 }
 
 /// Calls visit(LightHit) for every rect light that shines against the ray at a distance in (0, t_max). Rect

@@ -205,8 +205,11 @@ void CompiledScene::compile_lights_and_camera(const SceneDescription& local) {
   const EnvironmentDescription& environment = *local.environment;
   std::optional<EnvironmentImage> picture;
   if (!environment.image.empty()) picture = read_environment(environment.image);
+  view_.light_sampling = light_sampling(local.render.light_sampling);
+  const auto samples =
+      view_.light_sampling == LightSampling::kMis ? EnvironmentSamples::kExcess : EnvironmentSamples::kWhole;
   lights_.emplace(*local.lights, environment, picture ? &*picture : nullptr, view_frame(view_.camera),
-                  SceneSphere{center, radius});
+                  SceneSphere{center, radius}, samples);
   view_.lights = lights_->view();
   if (environment.ambient) view_.ambient = lights_->mean_environment_radiance();
   view_.background = description_.background->kind;
@@ -226,11 +229,10 @@ void CompiledScene::compile_image() {
   view_.sampler = render.sampler;
   view_.light_samples = render.light_samples;
   view_.shadow_roulette = static_cast<float>(render.shadow_roulette);
-  view_.light_sampling = light_sampling(render.light_sampling);
   view_.matter_emits = transfer_.emits();
   view_.last_flight_collects =
       view_.matter_emits || (view_.light_sampling != LightSampling::kLight &&
-                            (view_.lights.has_environment || view_.lights.rect_count > 0));
+                             (view_.lights.has_environment || view_.lights.rect_count > 0));
 }
 
 }  // namespace voxlume
