@@ -57,8 +57,18 @@ UnitPair CameraPath::draw(UnitPair first) noexcept {
   return {u0, u1};
 }
 
+/// From the last scattering in the direction drawn there.
+TrackRay CameraPath::scattered_ray(const SceneView& scene) const noexcept {
+  TrackRay ray = visible_part(scene, origin_world_, direction_world_, kInfinity, !scene.clip_blocks_light);
+  if (depth_ == 1) {
+    ray.u_collision = first_.u_next_collision;
+    ray.u_depth = first_.u_next_depth;
+  }
+  return ray;
+}
+
 CameraPath::Wait CameraPath::fly(const SceneView& scene, TraceCounters& counters) noexcept {
-  ray_ = visible_part(scene, origin_world_, direction_world_, kInfinity, !scene.clip_blocks_light);
+  ray_ = scattered_ray(scene);
   return enters() ? Wait::kFlight : end_flight(scene, {}, counters);
 }
 
@@ -202,7 +212,7 @@ CameraPath::Wait CameraPath::scatter(const SceneView& scene, TraceCounters& coun
   // it is one technique of the heuristic that takes `share` samples.
   const float share = flight_share(scene);
   if (share < 1 && rng_.next() >= share) return end();
-  const float u_lobe = rng_.next();
+  const float u_lobe = draw(first_.u_lobe);
   const auto [u0, u1] = draw(first_.direction);
   const ScatterSample sample = sample_scatter(point_, choice_, -direction_world_, u_lobe, u0, u1);
   if (!(sample.pdf > 0)) return end();
@@ -227,7 +237,7 @@ CameraPath::Wait CameraPath::reach_lights(const SceneView& scene, TraceCounters&
   if (meets_rect) return fly(scene, counters);
   unshadowed_ = met_emitters(scene, {});
   if (!(max_component(unshadowed_) > 0)) return end();
-  ray_ = visible_part(scene, origin_world_, direction_world_, kInfinity, !scene.clip_blocks_light);
+  ray_ = scattered_ray(scene);
   return enters() ? Wait::kTransmittance : end_shadow_ray(scene, 1, counters);
 }
 

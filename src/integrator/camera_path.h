@@ -37,6 +37,7 @@ class CameraPath {
   float draw(float first) noexcept;
   UnitPair draw(UnitPair first) noexcept;
   bool enters() const noexcept { return ray_.t_near < ray_.t_far; }
+  TrackRay scattered_ray(const SceneView& scene) const noexcept;
   Wait fly(const SceneView& scene, TraceCounters& counters) noexcept;
   Wait end() noexcept;
   Vec3f met_emitters(const SceneView& scene, const Collision& collision) const noexcept;

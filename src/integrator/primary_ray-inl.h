@@ -99,15 +99,16 @@ class PrimaryRayVector {
     const std::uint32_t picture = sobol_picture_seed(scene_.seed, scene_.frame);
     const auto pixel_seed = vector_mix_bits(kU, hn::Xor(hn::BitCast(kU, pixel), hn::Set(kU, picture)));
     auto rng = seed_vector_rng(kF, scene_.seed, scene_.frame, hn::BitCast(kU, pixel), sample);
-    F image[2], flight[4], scattering[4];
+    F image[2], flight[4], scattering[4], light[4];
     if (scene_.sampler == Sampler::kSobol) {
       vector_sobol_quad(kF, pixel_seed, sample, SobolSet::kCamera, image);
       vector_sobol_quad(kF, pixel_seed, sample, SobolSet::kFirstFlight, flight);
       vector_sobol_quad(kF, pixel_seed, sample, SobolSet::kFirstScattering, scattering);
+      vector_sobol_quad(kF, pixel_seed, sample, SobolSet::kFirstLight, light);
     } else {
       for (F& u : image) u = rng.next(kF);
       for (int i = 0; i < 2; ++i) rng.next(kF);  // the lens
-      for (int i = 0; i < 4; ++i) flight[i] = scattering[i] = set(-1.0f);
+      for (int i = 0; i < 4; ++i) flight[i] = scattering[i] = light[i] = set(-1.0f);
     }
     const F half = set(0.5f);
     const F px = hn::Add(hn::Add(hn::ConvertTo(kF, x), half), sample_filter(image[0]));
@@ -115,6 +116,7 @@ class PrimaryRayVector {
     for (int i = 0; i < 4; ++i) {
       hn::Store(flight[i], kF, batch_.first_flight[i].data() + v);
       hn::Store(scattering[i], kF, batch_.first_scattering[i].data() + v);
+      hn::Store(light[i], kF, batch_.first_light[i].data() + v);
     }
     hn::Store(rng.s0, kU, batch_.rng[0].data() + v);
     hn::Store(rng.s1, kU, batch_.rng[1].data() + v);

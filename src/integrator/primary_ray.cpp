@@ -22,9 +22,9 @@ PrimaryRay make_primary_ray(const SceneView& scene, int x, int y, std::uint32_t 
   if (scene.sampler == Sampler::kSobol) {
     const std::uint32_t pixel_seed = sobol_pixel_seed(scene.seed, scene.frame, pixel);
     image = sobol_quad(pixel_seed, sample, SobolSet::kCamera);
-    const UnitQuad f = sobol_quad(pixel_seed, sample, SobolSet::kFirstFlight);
-    const UnitQuad s = sobol_quad(pixel_seed, sample, SobolSet::kFirstScattering);
-    out.first = {f[0], f[1], f[2], f[3], {s[0], s[1]}, {s[2], s[3]}};
+    const auto quad = [&](SobolSet set) { return sobol_quad(pixel_seed, sample, set); };
+    out.first = FirstNumbers::of(quad(SobolSet::kFirstFlight), quad(SobolSet::kFirstScattering),
+                                 quad(SobolSet::kFirstLight));
   } else {
     for (float& u : image) u = out.rng.next();
   }

@@ -13,8 +13,25 @@ struct FirstNumbers {
   /// SobolSet::kFirstFlight: where the flight collides (TrackRay::u_collision), the shadow ray's first
   /// optical depth, which light it is cast to, the flight's first optical depth.
   float u_collision = -1, u_shadow_depth = -1, u_light = -1, u_depth = -1;
-  /// SobolSet::kFirstScattering.
-  UnitPair light{-1, -1}, direction{-1, -1};
+  /// SobolSet::kFirstScattering: the direction, the first optical depth of the flight that follows, and which
+  /// part of the matter scatters.
+  UnitPair direction{-1, -1};
+  float u_next_depth = -1, u_lobe = -1;
+  /// SobolSet::kFirstLight: the point on the light, and where the flight after the scattering collides.
+  UnitPair light{-1, -1};
+  float u_next_collision = -1;
+  /// In the order of SobolSet.
+  static FirstNumbers of(const UnitQuad& flight, const UnitQuad& scattering, const UnitQuad& light) noexcept {
+    return {flight[0],
+            flight[1],
+            flight[2],
+            flight[3],
+            {scattering[0], scattering[1]},
+            scattering[2],
+            scattering[3],
+            {light[0], light[1]},
+            light[2]};
+  }
   bool operator==(const FirstNumbers&) const = default;
 };
 
@@ -44,7 +61,7 @@ struct alignas(64) PrimaryRayBatch {
   alignas(64) Column<std::int32_t> x{}, y{}, sample{};
   // Filled.
   alignas(64) Column<std::uint32_t> rng[4]{};
-  alignas(64) Column<float> first_flight[4]{}, first_scattering[4]{};  ///< in the order of FirstNumbers
+  alignas(64) Column<float> first_flight[4]{}, first_scattering[4]{}, first_light[4]{};  ///< of the SobolSets
   alignas(64) Column<float> px{}, py{};
   alignas(64) Column<float> origin_world[3]{}, direction_world[3]{};
   alignas(64) Column<float> origin_index[3]{}, direction_index[3]{};
@@ -53,7 +70,7 @@ struct alignas(64) PrimaryRayBatch {
   PrimaryRay at(int i) const noexcept {
     const auto vec = [i](const Column<float>(&a)[3]) { return Vec3f(a[0][i], a[1][i], a[2][i]); };
     return {Rng(std::array{rng[0][i], rng[1][i], rng[2][i], rng[3][i]}),
-            first_numbers(i),
+            FirstNumbers::of(quad(first_flight, i), quad(first_scattering, i), quad(first_light, i)),
             px[i],
             py[i],
             vec(origin_world),
@@ -67,10 +84,8 @@ struct alignas(64) PrimaryRayBatch {
   }
 
  private:
-  FirstNumbers first_numbers(int i) const noexcept {
-    const auto& f = first_flight;
-    const auto& s = first_scattering;
-    return {f[0][i], f[1][i], f[2][i], f[3][i], {s[0][i], s[1][i]}, {s[2][i], s[3][i]}};
+  static UnitQuad quad(const Column<float> (&from)[4], int i) noexcept {
+    return {from[0][i], from[1][i], from[2][i], from[3][i]};
   }
 };
 

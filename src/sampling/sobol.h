@@ -11,7 +11,7 @@ namespace voxlume {
 // pixel are stratified against each other in every set, and each alone is uniform.
 
 /// Which four dimensions of a camera sample a set gives.
-enum class SobolSet : std::uint32_t { kCamera, kFirstFlight, kFirstScattering };
+enum class SobolSet : std::uint32_t { kCamera, kFirstFlight, kFirstScattering, kFirstLight };
 
 inline constexpr std::uint32_t kMixFactor0 = 0x7feb352du, kMixFactor1 = 0x846ca68bu;
 
