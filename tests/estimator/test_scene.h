@@ -120,11 +120,25 @@ struct Estimate {
   }
 };
 
-/// The accelerator and instruction set that the whole program is run with, from VOXLUME_TEST_ACCELERATOR and
-/// VOXLUME_TEST_SIMD; each test program is run once for each.
+/// What the whole program is run with: the accelerator that VOXLUME_TEST_ACCELERATOR names ("thresholds": the
+/// hierarchy by that rule) where the scene's trackers can do with it, and the instruction set that
+/// VOXLUME_TEST_SIMD names if this machine has it.
 inline SceneDescription as_tested(SceneDescription description) {
-  if (const char* name = std::getenv("VOXLUME_TEST_ACCELERATOR")) description.render.accelerator = name;
-  if (const char* name = std::getenv("VOXLUME_TEST_SIMD")) description.render.simd = name;
+  RenderDescription& render = description.render;
+  if (const char* variable = std::getenv("VOXLUME_TEST_ACCELERATOR")) {
+    const std::string name = variable;
+    const bool has_minima = name == "none" || name == "macrocell";
+    const bool needs_minima = render.transmittance != TransmittanceEstimator::kRatio ||
+                              render.free_flight != FreeFlightSampling::kDelta;
+    if (has_minima || !needs_minima) render.accelerator = name == "thresholds" ? "hierarchy" : name;
+    if (name == "thresholds") render.hierarchy_rule = "thresholds";
+  }
+  if (const char* variable = std::getenv("VOXLUME_TEST_SIMD")) {
+    const std::string name = variable;
+    for (const SimdTarget target :
+         {SimdTarget::kScalar, SimdTarget::kSse4, SimdTarget::kAvx2, SimdTarget::kAvx512, SimdTarget::kNeon})
+      if (name == simd_name(target) && has_simd_target(target)) render.simd = name;
+  }
   return description;
 }
 
