@@ -38,6 +38,10 @@ struct alignas(64) Lanes {
   alignas(64) PerLane<float> tau{}, mu_maj{}, run_mm{}, exit_mm{};
   alignas(64) PerLane<std::int32_t> cell[3]{}, next_cell[3]{};
   alignas(64) PerLane<std::uint32_t> word{}, next_word{};
+  /// The 8 voxels around the last look-up, as VoxelPairs lays them out, and the index of the first of them
+  /// (-1 along i: none): the next look-up is often between the same.
+  alignas(64) PerLane<std::uint32_t> pairs[8]{};
+  alignas(64) PerLane<std::int32_t> fetched[3]{};
 
   /// Puts a ray into a lane.
   void put(int lane, const TrackRay& track, bool shadow, const Rng& stream) noexcept {

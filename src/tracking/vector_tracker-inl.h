@@ -37,21 +37,24 @@ class LaneTracker {
     constexpr std::size_t kLookUps = (5 * kN + 7) / 8;
     constexpr std::size_t kDoneLanes = 8;
     constexpr std::size_t kVectors = Lanes::kCount / kN;
-    for (std::size_t i = 0; i < kVectors; ++i) begin(i * kN);
+    Census census[kVectors];
+    for (std::size_t i = 0; i < kVectors; ++i) {
+      begin(i * kN);
+      census[i] = {count(i * kN, Lanes::kCross), count(i * kN, Lanes::kLookUp), count(i * kN, Lanes::kDone)};
+    }
     for (;;) {
       std::size_t done = 0, under_way = 0;
       bool full[kVectors];
       // The vectors take turns, so that one computes while the other waits for memory.
       for (std::size_t i = 0; i < kVectors; ++i) {
-        const std::size_t v = i * kN;
-        const std::size_t crossing = count(v, Lanes::kCross), look_ups = count(v, Lanes::kLookUp);
-        under_way += crossing + look_ups;
-        full[i] = look_ups >= kLookUps || (look_ups > 0 && crossing == 0);
-        if (crossing > 0 && !full[i]) cross(v);
+        Census& lanes = census[i];
+        under_way += lanes.crossing + lanes.looking_up;
+        full[i] = lanes.looking_up >= kLookUps || (lanes.looking_up > 0 && lanes.crossing == 0);
+        if (lanes.crossing > 0 && !full[i]) cross(i * kN, lanes);
       }
       for (std::size_t i = 0; i < kVectors; ++i) {
-        if (full[i]) look_up(i * kN);
-        done += count(i * kN, Lanes::kDone);
+        if (full[i]) look_up(i * kN, census[i]);
+        done += census[i].done;
       }
       if (done >= kDoneLanes || under_way == 0) return;
     }
@@ -67,6 +70,10 @@ class LaneTracker {
   using U = hn::Vec<decltype(kU)>;
   using MaskF = hn::Mask<decltype(kF)>;
   using MaskU = hn::Mask<decltype(kU)>;
+  /// How many lanes of a vector are in which state.
+  struct Census {
+    std::size_t crossing, looking_up, done;
+  };
 
   static F load(const Lanes::PerLane<float>& a, std::size_t v) { return hn::Load(kF, a.data() + v); }
   static I load(const Lanes::PerLane<std::int32_t>& a, std::size_t v) { return hn::Load(kI, a.data() + v); }
@@ -88,6 +95,13 @@ class LaneTracker {
   std::size_t count(std::size_t v, Lanes::State state) const { return hn::CountTrue(kU, in_state(v, state)); }
   void set_state(MaskU where, Lanes::State state, std::size_t v) {
     store_where(where, hn::Set(kU, state), lanes_.state, v);
+  }
+
+  void move_on(MaskU where, Lanes::State state, std::size_t v, std::size_t& from, std::size_t& to) {
+    set_state(where, state, v);
+    const std::size_t moved = hn::CountTrue(kU, where);
+    from -= moved;
+    to += moved;
   }
 
   /// Rng::next() of the lanes in `where`; the others' streams stay.
@@ -152,6 +166,7 @@ class LaneTracker {
     for (auto* zero : {&lanes_.mu_maj, &lanes_.run_mm, &lanes_.exit_mm, &lanes_.entered_mm})
       store_where(where_f, hn::Zero(kF), *zero, v);
     store_where(where_f, hn::Set(kF, 1.0f), lanes_.transmittance, v);
+    store_where(to_i(where_f), hn::Set(kI, -1), lanes_.fetched[0], v);
     set_state(where, Lanes::kCross, v);
   }
 
@@ -165,7 +180,7 @@ class LaneTracker {
   }
 
   /// Leaves the block that a lane is in and enters the next: HierarchyWalk::next.
-  void cross(std::size_t v) {
+  void cross(std::size_t v, Census& census) {
     const MaskU where = in_state(v, Lanes::kCross);
     const MaskF where_f = to_f(where);
     const F left =
@@ -221,32 +236,35 @@ class LaneTracker {
     store_where(where, word, lanes_.word, v);
     store_where(where_f, hn::IfThenElseZero(collides, entered), lanes_.entered_mm, v);
     store_where(to_u(hn::And(where_f, ends)), hn::Zero(kU), lanes_.is_real, v);
-    set_state(to_u(hn::And(where_f, ends)), Lanes::kDone, v);
-    set_state(to_u(hn::And(where_f, collides)), Lanes::kLookUp, v);
+    move_on(to_u(hn::And(where_f, ends)), Lanes::kDone, v, census.crossing, census.done);
+    move_on(to_u(hn::And(where_f, collides)), Lanes::kLookUp, v, census.crossing, census.looking_up);
   }
 
   /// sample_trilinear at p, which it moves to within the voxel centres.
-  F interpolate(MaskF where, const F (&p_index)[3]) const {
+  F interpolate(MaskF where, const F (&p_index)[3], std::size_t v) {
     F fraction[3];
-    alignas(64) std::int32_t base[3][kN];
+    I base[3];
     for (int a = 0; a < 3; ++a) {
       const F p =
           hn::Min(hn::Max(p_index[a], hn::Zero(kF)), hn::Set(kF, static_cast<float>(grid_.size[a] - 1)));
-      const I i = hn::Min(hn::ConvertTo(kI, p), hn::Set(kI, std::max(grid_.size[a] - 2, 0)));
-      fraction[a] = hn::Sub(p, hn::ConvertTo(kF, i));
-      hn::Store(i, kI, base[a]);
+      base[a] = hn::Min(hn::ConvertTo(kI, p), hn::Set(kI, std::max(grid_.size[a] - 2, 0)));
+      fraction[a] = hn::Sub(p, hn::ConvertTo(kF, base[a]));
     }
+    const auto is_new = [&](int a) { return hn::Ne(base[a], load(lanes_.fetched[a], v)); };
+    const auto fetches = hn::And(to_i(where), hn::Or(is_new(0), hn::Or(is_new(1), is_new(2))));
+    for (int a = 0; a < 3; ++a) store_where(fetches, base[a], lanes_.fetched[a], v);
     std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(kF, where, bytes);
-    VoxelPairs<Voxel, kN> pairs;
+    hn::StoreMaskBits(kI, fetches, bytes);
+    VoxelPairs<Voxel> pairs(lanes_, v);
     const auto* voxels = static_cast<const Voxel*>(grid_.voxels);
     const std::int64_t next_j = grid_.size[1] > 1 ? grid_.stride_j : 0,
                        next_k = grid_.size[2] > 1 ? grid_.stride_k : 0;
+    const std::int32_t *i = lanes_.fetched[0].data() + v, *j = lanes_.fetched[1].data() + v,
+                       *k = lanes_.fetched[2].data() + v;
     for (std::uint32_t bits = bytes[0] | bytes[1] << 8; bits; bits &= bits - 1) {
-      const int lane = std::countr_zero(bits);
-      pairs.fetch(lane,
-                  voxels + base[0][lane] + base[1][lane] * grid_.stride_j + base[2][lane] * grid_.stride_k,
-                  next_j, next_k);
+      const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+      pairs.fetch(lane, voxels + i[lane] + j[lane] * grid_.stride_j + k[lane] * grid_.stride_k, next_j,
+                  next_k);
     }
     F row[4];
     for (int r = 0; r < 4; ++r) {
@@ -287,7 +305,7 @@ class LaneTracker {
   }
 
   /// One tentative collision of each lane that has come to one.
-  void look_up(std::size_t v) {
+  void look_up(std::size_t v, Census& census) {
     const MaskU where = in_state(v, Lanes::kLookUp);
     const MaskF where_f = to_f(where);
     const F entered = load(lanes_.entered_mm, v), mu_maj = load(lanes_.mu_maj, v);
@@ -304,7 +322,7 @@ class LaneTracker {
       p[a] = hn::Min(hn::Max(p[a], lower), upper);
       store_where(where_f, p[a], lanes_.position[a], v);
     }
-    const F value = interpolate(where_f, p);
+    const F value = interpolate(where_f, p, v);
     const F mu_t = extinction(where_f, value);
     store_where(where_f, value, lanes_.value, v);
     const U one = hn::Set(kU, 1);
@@ -330,14 +348,14 @@ class LaneTracker {
 
     const MaskU goes_on = hn::AndNot(done, where);
     store_where(done, hn::IfThenElseZero(real, hn::Set(kU, ~0u)), lanes_.is_real, v);
-    set_state(done, Lanes::kDone, v);
+    move_on(done, Lanes::kDone, v, census.looking_up, census.done);
     if (hn::AllFalse(kU, goes_on)) return;
     const F tau = optical_depth(draw(goes_on, v));
     const F next = hn::Add(entered, hn::Div(tau, mu_maj));
     const MaskF stays = hn::Lt(next, load(lanes_.run_mm, v));
     store_where(to_f(goes_on), tau, lanes_.tau, v);
     store_where(hn::And(to_f(goes_on), stays), next, lanes_.entered_mm, v);
-    set_state(hn::AndNot(to_u(stays), goes_on), Lanes::kCross, v);
+    move_on(hn::AndNot(to_u(stays), goes_on), Lanes::kCross, v, census.looking_up, census.crossing);
   }
 
   const HierarchyView& hierarchy_;

@@ -8,22 +8,27 @@
 
 #include <hwy/highway.h>
 
+#include <bit>
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
+
+#include "tracking/lanes.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace voxlume {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// The 8 voxels around a point for each of kN lanes: four pairs of neighbours along i. Scalar loads beat
-/// gathers here, and a pair of narrow voxels is one load.
-template <class Voxel, std::size_t kN>
+/// The 8 voxels around a point for each lane of a vector, in the columns of Lanes::pairs from lane v on: four
+/// pairs of neighbours along i. Scalar loads beat gathers here, and a pair of narrow voxels is one load.
+template <class Voxel>
 class VoxelPairs {
  public:
+  VoxelPairs(Lanes& lanes, std::size_t v) : lanes_(lanes), v_(v) {}
+
   /// Fetches the pairs of `lane`, whose first voxel is `at`.
-  void fetch(int lane, const Voxel* at, std::int64_t next_j, std::int64_t next_k) {
+  void fetch(std::size_t lane, const Voxel* at, std::int64_t next_j, std::int64_t next_k) {
     const std::int64_t offset[4] = {0, next_j, next_k, next_j + next_k};
     for (int r = 0; r < 4; ++r) put(lane, r, at + offset[r]);
   }
@@ -33,39 +38,39 @@ class VoxelPairs {
   void get(D d, int r, hn::Vec<D>& lower, hn::Vec<D>& upper) const {
     const hn::RebindToSigned<D> di;
     const hn::RebindToUnsigned<D> du;
-    if constexpr (sizeof(Voxel) <= 2) {
+    if constexpr (kPacked) {
       constexpr int kBits = 8 * sizeof(Voxel);
+      const auto pair = hn::Load(du, lanes_.pairs[r].data() + v_);
       if constexpr (std::is_signed_v<Voxel>) {
-        const auto pair = hn::BitCast(di, hn::Load(du, packed_[r]));
-        lower = hn::ConvertTo(d, hn::ShiftRight<32 - kBits>(hn::ShiftLeft<32 - kBits>(pair)));
-        upper = hn::ConvertTo(d, hn::ShiftRight<32 - kBits>(hn::ShiftLeft<32 - 2 * kBits>(pair)));
+        const auto bits = hn::BitCast(di, pair);
+        lower = hn::ConvertTo(d, hn::ShiftRight<32 - kBits>(hn::ShiftLeft<32 - kBits>(bits)));
+        upper = hn::ConvertTo(d, hn::ShiftRight<32 - kBits>(hn::ShiftLeft<32 - 2 * kBits>(bits)));
       } else {
-        const auto pair = hn::Load(du, packed_[r]);
         lower = hn::ConvertTo(d, hn::BitCast(di, hn::And(pair, hn::Set(du, (1u << kBits) - 1))));
         upper = hn::ConvertTo(d, hn::BitCast(di, hn::ShiftRight<kBits>(pair)));
       }
     } else {
-      lower = hn::Load(d, wide_[r][0]);
-      upper = hn::Load(d, wide_[r][1]);
+      lower = hn::BitCast(d, hn::Load(du, lanes_.pairs[r].data() + v_));
+      upper = hn::BitCast(d, hn::Load(du, lanes_.pairs[r + 4].data() + v_));
     }
   }
 
  private:
-  void put(int lane, int r, const Voxel* at) {
-    if constexpr (sizeof(Voxel) <= 2) {
-      using Pair = std::conditional_t<sizeof(Voxel) == 1, std::uint16_t, std::uint32_t>;
-      Pair pair;
+  static constexpr bool kPacked = sizeof(Voxel) <= 2;
+
+  void put(std::size_t lane, int r, const Voxel* at) {
+    if constexpr (kPacked) {
+      std::conditional_t<sizeof(Voxel) == 1, std::uint16_t, std::uint32_t> pair;
       std::memcpy(&pair, at, sizeof pair);
-      packed_[r][lane] = pair;
+      lanes_.pairs[r][v_ + lane] = pair;
     } else {
-      wide_[r][0][lane] = static_cast<float>(at[0]);
-      wide_[r][1][lane] = static_cast<float>(at[1]);
+      lanes_.pairs[r][v_ + lane] = std::bit_cast<std::uint32_t>(static_cast<float>(at[0]));
+      lanes_.pairs[r + 4][v_ + lane] = std::bit_cast<std::uint32_t>(static_cast<float>(at[1]));
     }
   }
 
-  static constexpr bool kPacked = sizeof(Voxel) <= 2;
-  alignas(64) std::uint32_t packed_[4][kPacked ? kN : 1]{};
-  alignas(64) float wide_[4][2][kPacked ? 1 : kN]{};
+  Lanes& lanes_;
+  std::size_t v_;
 };
 
 }  // namespace HWY_NAMESPACE
