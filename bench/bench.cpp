@@ -229,7 +229,7 @@ Json time_to_rmse(const std::string& folder) {
 }
 
 /// The lit forehead of the peer scene: mean luminance, and seconds of one core until the relative standard
-/// deviation of a pixel is 10 %, from two independent renders.
+/// deviation of a pixel is 10 %, from two independent renders with about as many samples as that takes.
 Json peer(const std::string& folder, int max_scatter, int spp) {
   std::vector<Render> renders;
   for (const std::uint64_t seed : {1, 2}) {
@@ -278,7 +278,7 @@ int main(int argc, char** argv) {
     if (wanted("tracking")) out["tracking"] = tracking(folder, rounds);
     if (wanted("large")) out["large"] = large(folder, std::min(rounds, 3));
     if (wanted("rmse")) out["time_to_rmse"] = time_to_rmse(folder);
-    if (wanted("peer")) out["peer"] = Json::array({peer(folder, 1, 16), peer(folder, 100, 8)});
+    if (wanted("peer")) out["peer"] = Json::array({peer(folder, 1, 40), peer(folder, 100, 40)});
     std::cout << out.dump(2) << "\n";
   } catch (const Error& error) {
     std::fprintf(stderr, "voxlume_bench: %s\n", error.what());

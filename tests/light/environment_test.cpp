@@ -137,6 +137,43 @@ TEST(Environment, DensityFollowsTheRadiance) {
   }
 }
 
+/// Light samples go to what is brighter than the mean, in proportion to by how much.
+TEST(Environment, ExcessIsWhatIsSampled) {
+  const EnvironmentImage image = test::sky();
+  const Lights lights = compile({}, {}, &image, EnvironmentSamples::kExcess);
+  expect_samples_fit(lights, Vec3f(0, 0, 1), 0.2, 4);
+  const Lights whole = compile({}, {}, &image);
+  EXPECT_EQ(lights.mean_environment_radiance(), whole.mean_environment_radiance());
+  const double mean = luminance(Vec3d(lights.mean_environment_radiance()));
+  Rng rng(6, 0, 0, 0);
+  double ratio = 0;
+  int dim = 0;
+  for (int i = 0; i < 10000; ++i) {
+    const float u0 = rng.next(), u1 = rng.next();
+    const LightHit hit = environment_hit(lights.view(), uniform_sphere(u0, u1));
+    const double excess = luminance(Vec3d(hit.radiance)) - mean;
+    if (excess <= 0) {
+      EXPECT_EQ(hit.pdf, 0.0f);
+      ++dim;
+    } else {
+      if (ratio == 0) ratio = hit.pdf / excess;
+      EXPECT_NEAR(hit.pdf / excess, ratio, 1e-3 * ratio);
+    }
+  }
+  EXPECT_GT(dim, 1000);
+  EXPECT_GT(ratio, 0);
+}
+
+TEST(Environment, ConstantHasNoExcess) {
+  const Lights alone = compile({}, {}, nullptr, EnvironmentSamples::kExcess);
+  EXPECT_EQ(sample_light(alone.view(), Vec3f(0.0f), 0.5f, 0.5f, 0.5f).pdf, 0.0f);
+  EXPECT_EQ(environment_hit(alone.view(), Vec3f(0, 0, 1)).pdf, 0.0f);
+  EXPECT_EQ(environment_hit(alone.view(), Vec3f(0, 0, 1)).radiance, Vec3f(1.0f));
+  const Lights beside = compile({test::directional({0, 0, 1}, 1)}, {}, nullptr, EnvironmentSamples::kExcess);
+  EXPECT_EQ(bin_probability(beside.view().pick, 0), 1.0f);
+  EXPECT_EQ(environment_hit(beside.view(), Vec3f(0, 0, 1)).pdf, 0.0f);
+}
+
 TEST(Environment, IrradianceOfThePicture) {
   const EnvironmentImage image = test::sky();
   const Lights lights = sky_lights();

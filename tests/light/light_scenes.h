@@ -41,8 +41,9 @@ inline LightDescription directional(Double3 direction, double irradiance) {
 
 inline Lights compile(const std::vector<LightDescription>& lights,
                       const EnvironmentDescription& environment = no_environment(),
-                      const EnvironmentImage* image = nullptr) {
-  return Lights(lights, environment, image, ViewFrame{}, SceneSphere{{0, 0, 0}, 100});
+                      const EnvironmentImage* image = nullptr,
+                      EnvironmentSamples samples = EnvironmentSamples::kWhole) {
+  return Lights(lights, environment, image, ViewFrame{}, SceneSphere{{0, 0, 0}, 100}, samples);
 }
 
 /// A 32 x 16 sky: dim noise, bright poles, a black patch, and one texel (column 21, row 4) like a sun.
