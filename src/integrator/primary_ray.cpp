@@ -38,6 +38,7 @@ PrimaryRay make_primary_ray(const SceneView& scene, int x, int y, std::uint32_t 
       visible_part(scene, camera.origin, camera.direction, std::numeric_limits<float>::infinity(), clipped);
   out.track.u_collision = out.first.u_collision;
   out.track.u_depth = out.first.u_depth;
+  out.track.fine = scene.sampler == Sampler::kSobol;
   out.enters = out.track.t_near < out.track.t_far;
   return out;
 }

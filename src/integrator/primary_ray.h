@@ -79,7 +79,8 @@ struct alignas(64) PrimaryRayBatch {
              t_near[i],
              t_far[i],
              first_flight[0][i],
-             first_flight[3][i]},
+             first_flight[3][i],
+             first_flight[0][i] >= 0},
             t_near[i] < t_far[i]};
   }
 

@@ -22,7 +22,8 @@ struct alignas(64) Lanes {
   alignas(64) PerLane<float> origin[3]{};     ///< index space; from kStart on inside the domain
   alignas(64) PerLane<float> direction[3]{};  ///< index units per mm
   alignas(64) PerLane<float> length_mm{};
-  alignas(64) PerLane<float> u_collision{}, u_depth{};  ///< as in TrackRay
+  alignas(64) PerLane<float> u_collision{}, u_depth{};            ///< as in TrackRay
+  alignas(64) PerLane<float> rate_in_matter{}, rate_elsewhere{};  ///< CollisionRates
 
   // Results, with kDone.
   alignas(64) PerLane<std::uint32_t> is_real{};  ///< of a free flight: all ones where it collided
@@ -35,7 +36,7 @@ struct alignas(64) Lanes {
   // The tracker's own.
   alignas(64) PerLane<float> inverse[3]{};
   alignas(64) PerLane<float> threshold{};  ///< transmittance below which the flight ends or roulette sets in
-  alignas(64) PerLane<float> tau{}, mu_maj{}, run_mm{}, exit_mm{};
+  alignas(64) PerLane<float> tau{}, rate{}, mu_maj{}, run_mm{}, exit_mm{};
   alignas(64) PerLane<std::int32_t> cell[3]{}, next_cell[3]{};
   alignas(64) PerLane<std::uint32_t> word{}, next_word{};
   /// The 8 voxels around the last look-up, as VoxelPairs lays them out, and the index of the first of them
@@ -52,6 +53,9 @@ struct alignas(64) Lanes {
     }
     u_collision[lane] = track.u_collision;
     u_depth[lane] = track.u_depth;
+    const CollisionRates rates = collision_rates(track.fine);
+    rate_in_matter[lane] = rates.in_matter;
+    rate_elsewhere[lane] = rates.elsewhere;
     length_mm[lane] = track.t_far - track.t_near;
     is_shadow[lane] = shadow ? ~0u : 0u;
     for (int i = 0; i < 4; ++i) rng[i][lane] = stream.state()[i];

@@ -25,6 +25,7 @@ struct TrackRay {
   /// Random numbers in [0, 1) that the ray's stream gives where they are negative: of a free flight's
   /// threshold, and of the first optical depth.
   float u_collision = -1, u_depth = -1;
+  bool fine = false;  ///< whether tentative collisions are denser than they need be: collision_rates
 };
 
 inline IndexRay to_index_ray(const GridView& grid, Vec3f origin_world, Vec3f direction_world) noexcept {

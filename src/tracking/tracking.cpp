@@ -5,13 +5,15 @@
 namespace voxlume {
 namespace {
 
-/// Visits the tentative collisions of a ray: a Poisson process of rate mu_maj. `visit(t, p_index, mu_maj)`
-/// returns true to stop.
+/// Looks the data up at the tentative collisions of a ray, a Poisson process of at least the majorant's rate.
+/// `visit(t, p_index, value, share)`, share being mu_t over that rate, returns true to stop.
 template <class Visit>
 void visit_tentative_collisions(const Medium& medium, const TrackRay& track, Rng& rng,
-                                Visit&& visit) noexcept {
+                                TrackingCounters& counters, Visit&& visit) noexcept {
   const IndexRay& ray = track.ray;
   const float t_near = track.t_near, t_far = track.t_far;
+  const CollisionRates rates = collision_rates(track.fine);
+  float rate = rates.elsewhere;
   float tau = sample_optical_depth(track.u_depth >= 0 ? track.u_depth : rng.next());
   // From here on distances are counted from where the ray enters: far from the eye, t is coarser.
   const Box3f domain = medium.grid.index_box();
@@ -19,7 +21,7 @@ void visit_tentative_collisions(const Medium& medium, const TrackRay& track, Rng
   with_walk(medium.accelerator, origin, ray.direction_index, t_far - t_near, [&](auto& walk) {
     MajorantSegment segment;
     while (walk.next(segment)) {
-      const float mu_maj = segment.mu_maj;
+      float mu_maj = segment.mu_maj * rate;
       const float length_mm = segment.t_far - segment.t_near;
       float entered_mm = 0;
       for (;;) {
@@ -27,19 +29,22 @@ void visit_tentative_collisions(const Medium& medium, const TrackRay& track, Rng
         if (!(next_mm < length_mm)) break;  // also without extinction, where next_mm is infinite or NaN
         entered_mm = next_mm;
         const float t = segment.t_near + entered_mm;
-        const Vec3f p = origin + ray.direction_index * t;
-        if (visit(t_near + t, min(max(p, segment.cell.lower), segment.cell.upper), mu_maj)) return;
+        const Vec3f on_ray = origin + ray.direction_index * t;
+        const Vec3f p = min(max(on_ray, segment.cell.lower), segment.cell.upper);
+        ++counters.steps;
+        const float value = sample_trilinear(medium.grid, p);
+        const float mu_t = classify_mu_t(medium.transfer, value);
+        VOXLUME_ASSERT_LE(mu_t, segment.mu_maj);
+        counters.majorant_violations += mu_t > segment.mu_maj;
+        if (visit(t_near + t, p, value, mu_t / mu_maj)) return;
+        rate = mu_t > segment.mu_maj * kMatterShare ? rates.in_matter : rates.elsewhere;
+        mu_maj = segment.mu_maj * rate;
         tau = sample_optical_depth(rng.next());
       }
       const float left = tau - (length_mm - entered_mm) * mu_maj;
       tau = left > 0 ? left : 0;
     }
   });
-}
-
-void check_majorant(float mu_t, float mu_maj, TrackingCounters& counters) noexcept {
-  VOXLUME_ASSERT_LE(mu_t, mu_maj);
-  counters.majorant_violations += mu_t > mu_maj;
 }
 
 }  // namespace
@@ -49,27 +54,21 @@ Collision sample_free_flight(const Medium& medium, const TrackRay& ray, Rng& rng
   Collision collision;
   const float threshold = collision_threshold(ray.u_collision >= 0 ? ray.u_collision : rng.next());
   float transmittance = 1;
-  visit_tentative_collisions(medium, ray, rng, [&](float t, Vec3f p_index, float mu_maj) {
-    ++counters.steps;
-    const float value = sample_trilinear(medium.grid, p_index);
-    const float mu_t = classify_mu_t(medium.transfer, value);
-    check_majorant(mu_t, mu_maj, counters);
-    transmittance *= 1.0f - mu_t / mu_maj;
-    if (!(transmittance < threshold)) return false;
-    collision = {true, t, p_index, value};
-    return true;
-  });
+  visit_tentative_collisions(medium, ray, rng, counters,
+                             [&](float t, Vec3f p_index, float value, float share) {
+                               transmittance *= 1.0f - share;
+                               if (!(transmittance < threshold)) return false;
+                               collision = {true, t, p_index, value};
+                               return true;
+                             });
   return collision;
 }
 
 float estimate_transmittance(const Medium& medium, const TrackRay& ray, Rng& rng,
                              TrackingCounters& counters) noexcept {
   float transmittance = 1;
-  visit_tentative_collisions(medium, ray, rng, [&](float, Vec3f p_index, float mu_maj) {
-    ++counters.steps;
-    const float mu_t = extinction_at(medium, p_index);
-    check_majorant(mu_t, mu_maj, counters);
-    transmittance *= 1.0f - mu_t / mu_maj;
+  visit_tentative_collisions(medium, ray, rng, counters, [&](float, Vec3f, float, float share) {
+    transmittance *= 1.0f - share;
     if (transmittance >= kRouletteTransmittance) return false;
     if (rng.next() * kRouletteTransmittance >= transmittance) {
       transmittance = 0;

@@ -39,6 +39,21 @@ constexpr float kRouletteTransmittance = 0.1f;
 /// exp(1)-distributed optical depth from a multiple u of 2^-24 in [0,1).
 inline float sample_optical_depth(float u) noexcept { return negative_log(1.0f - u); }
 
+/// How many times the majorant's rate the tentative collisions of a ray have, after one in matter and
+/// elsewhere. Any rate above the majorant that the ray's past decides is exact.
+struct CollisionRates {
+  float in_matter, elsewhere;
+};
+
+/// Matter is what has more than this share of the majorant.
+constexpr float kMatterShare = 0.02f;
+
+/// Fine rays have denser ones: the denser they are, the more their stratified threshold places the collision
+/// and the less chance does. 0.77 of the time to the same error in the peer scene, 0.84 with ct-bone.
+constexpr CollisionRates collision_rates(bool fine) noexcept {
+  return fine ? CollisionRates{4.5f, 1.5f} : CollisionRates{1, 1};
+}
+
 /// The transmittance below which a free flight has ended, in (0, 1].
 inline float collision_threshold(float u) noexcept { return 1.0f - u; }
 

@@ -126,6 +126,9 @@ class LaneTracker {
   /// sample_optical_depth.
   static F optical_depth(F u) { return vector_negative_log(kF, hn::Sub(hn::Set(kF, 1.0f), u)); }
 
+  /// The majorant of a hierarchy's cell.
+  static F majorant(U word) { return hn::BitCast(kF, hn::AndNot(hn::Set(kU, kLevelMask), word)); }
+
   I cell_of(F p) const {
     const F at = hn::Add(hn::Mul(p, hn::Set(kF, hierarchy_.cells_per_voxel)), hn::Set(kF, 1.0f));
     return hn::Sub(hn::ConvertTo(kI, at), hn::Set(kI, 1));
@@ -167,6 +170,7 @@ class LaneTracker {
       store_where(where_f, hn::Zero(kF), *zero, v);
     store_where(where_f, hn::Set(kF, 1.0f), lanes_.transmittance, v);
     store_where(to_i(where_f), hn::Set(kI, -1), lanes_.fetched[0], v);
+    store_where(where_f, load(lanes_.rate_elsewhere, v), lanes_.rate, v);
     set_state(where, Lanes::kCross, v);
   }
 
@@ -194,7 +198,7 @@ class LaneTracker {
                        load(lanes_.next_cell[2], v)};
     const U word = load(lanes_.next_word, v);
     const U level = hn::And(word, hn::Set(kU, kLevelMask));
-    const F mu_maj = hn::BitCast(kF, hn::AndNot(hn::Set(kU, kLevelMask), word));
+    const F mu_maj = hn::Mul(majorant(word), load(lanes_.rate, v));
     const I size = hn::BitCast(kI, hn::Shl(hn::Set(kU, 1), level)), mask = hn::Neg(size);
 
     const F edge = hn::Set(kF, hierarchy_.cell_voxels);
@@ -310,7 +314,8 @@ class LaneTracker {
     const MaskF where_f = to_f(where);
     const F entered = load(lanes_.entered_mm, v), mu_maj = load(lanes_.mu_maj, v);
     const F t = hn::Add(load(lanes_.start_mm, v), entered);
-    const U level = hn::And(load(lanes_.word, v), hn::Set(kU, kLevelMask));
+    const U word = load(lanes_.word, v);
+    const U level = hn::And(word, hn::Set(kU, kLevelMask));
     const I size = hn::BitCast(kI, hn::Shl(hn::Set(kU, 1), level));
     const F edge = hn::Set(kF, hierarchy_.cell_voxels);
     F p[3];
@@ -327,7 +332,8 @@ class LaneTracker {
     store_where(where_f, value, lanes_.value, v);
     const U one = hn::Set(kU, 1);
     store(hn::Add(load(lanes_.steps, v), hn::IfThenElseZero(where, one)), lanes_.steps, v);
-    const MaskU violated = to_u(hn::And(where_f, hn::Gt(mu_t, mu_maj)));
+    const F mu_cell = majorant(word);
+    const MaskU violated = to_u(hn::And(where_f, hn::Gt(mu_t, mu_cell)));
     store(hn::Add(load(lanes_.violations, v), hn::IfThenElseZero(violated, one)), lanes_.violations, v);
 
     const F threshold = load(lanes_.threshold, v);
@@ -351,7 +357,12 @@ class LaneTracker {
     move_on(done, Lanes::kDone, v, census.looking_up, census.done);
     if (hn::AllFalse(kU, goes_on)) return;
     const F tau = optical_depth(draw(goes_on, v));
-    const F next = hn::Add(entered, hn::Div(tau, mu_maj));
+    const auto in_matter = hn::Gt(mu_t, hn::Mul(mu_cell, hn::Set(kF, kMatterShare)));
+    const F rate = hn::IfThenElse(in_matter, load(lanes_.rate_in_matter, v), load(lanes_.rate_elsewhere, v));
+    const F next_maj = hn::Mul(mu_cell, rate);
+    store_where(to_f(goes_on), rate, lanes_.rate, v);
+    store_where(to_f(goes_on), next_maj, lanes_.mu_maj, v);
+    const F next = hn::Add(entered, hn::Div(tau, next_maj));
     const MaskF stays = hn::Lt(next, load(lanes_.run_mm, v));
     store_where(to_f(goes_on), tau, lanes_.tau, v);
     store_where(hn::And(to_f(goes_on), stays), next, lanes_.entered_mm, v);

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "support/chi_square.h"
+#include "support/moments.h"
 #include "tracked_medium.h"
 
 namespace voxlume {
@@ -12,10 +13,14 @@ using test::mu_t_function;
 using test::TrackedMedium;
 
 constexpr int kFlights = 200000;
-constexpr int kChiSquareTests = 6;
+constexpr int kChiSquareTests = 12;
 
-class FreeFlight : public testing::TestWithParam<int> {
+/// Voxels a cell, and whether the flights are fine.
+class FreeFlight : public testing::TestWithParam<std::tuple<int, bool>> {
  protected:
+  static int cell_voxels() { return std::get<0>(GetParam()); }
+  static bool fine() { return std::get<1>(GetParam()); }
+
   /// Flies along +x from the voxel centre (0,1,1); `depth(t)` is the optical depth of [0,t].
   template <class Depth>
   void expect_histogram(const TrackedMedium& tracked, double t_far, Depth&& depth) {
@@ -24,10 +29,12 @@ class FreeFlight : public testing::TestWithParam<int> {
     TrackingCounters counters;
     for (int n = 0; n < kFlights; ++n) {
       Rng rng(71, 0, 0, static_cast<std::uint32_t>(n));
-      const Collision c = sample_free_flight(
-          tracked.medium,
-          {to_index_ray(tracked.medium.grid, {0, 1, 1}, {1, 0, 0}), 0, static_cast<float>(t_far)}, rng,
-          counters);
+      const Collision c = sample_free_flight(tracked.medium,
+                                             {.ray = to_index_ray(tracked.medium.grid, {0, 1, 1}, {1, 0, 0}),
+                                              .t_near = 0,
+                                              .t_far = static_cast<float>(t_far),
+                                              .fine = fine()},
+                                             rng, counters);
       const int bin = c.real ? std::min(static_cast<int>(c.t_mm / t_far * kBins), kBins - 1) : kBins;
       observed[static_cast<std::size_t>(bin)] += 1;
       if (!c.real) continue;
@@ -46,7 +53,7 @@ class FreeFlight : public testing::TestWithParam<int> {
 
 TEST_P(FreeFlight, HistogramOfALinearField) {
   const TrackedMedium tracked(make_volume<std::uint8_t>({17, 3, 3}, [](auto i, auto, auto) { return i; }),
-                              mu_t_function({{0, 0}, {16, 0.4}}), GetParam());
+                              mu_t_function({{0, 0}, {16, 0.4}}), cell_voxels());
   expect_histogram(tracked, 16, [](double t) { return t * t / 80; });
 }
 
@@ -58,7 +65,8 @@ TEST_P(FreeFlight, HistogramOfAnOscillatingField) {
                                                    return 4 * t * t + 3 * (0.5 + 0.5 * std::sin(20 * t));
                                                  },
                                                  {{spacing, 1, 1}, {}, {1, 0, 0, 0, 1, 0, 0, 0, 1}}),
-                              test::identity_function(10), GetParam() == kGlobal ? kGlobal : GetParam() * 16);
+                              test::identity_function(10),
+                              cell_voxels() == kGlobal ? kGlobal : cell_voxels() * 16);
   expect_histogram(tracked, 1,
                    [](double t) { return 4 * t * t * t / 3 + 1.5 * t + 1.5 * (1 - std::cos(20 * t)) / 20; });
 }
@@ -66,12 +74,13 @@ TEST_P(FreeFlight, HistogramOfAnOscillatingField) {
 TEST_P(FreeFlight, TwoLayerSlabByKolmogorovSmirnov) {
   // The data rises linearly; the function steps at 7.3: 0.05/mm before x = 7.3 mm, 0.4/mm behind it.
   const TrackedMedium tracked(make_volume<float>({17, 3, 3}, [](auto i, auto, auto) { return i; }),
-                              mu_t_function({{0, 0.05}, {7.3, 0.05}, {7.3, 0.4}, {16, 0.4}}), GetParam());
+                              mu_t_function({{0, 0.05}, {7.3, 0.05}, {7.3, 0.4}, {16, 0.4}}), cell_voxels());
   std::vector<double> distances;
   TrackingCounters counters;
   for (int n = 0; n < kFlights; ++n) {
     Rng rng(72, 0, 0, static_cast<std::uint32_t>(n));
-    const Collision c = sample_free_flight(tracked.medium, {{{0, 1, 1}, {1, 0, 0}}, 0, 16}, rng, counters);
+    const TrackRay ray{.ray = {{0, 1, 1}, {1, 0, 0}}, .t_near = 0, .t_far = 16, .fine = fine()};
+    const Collision c = sample_free_flight(tracked.medium, ray, rng, counters);
     if (c.real) distances.push_back(c.t_mm);
   }
   std::sort(distances.begin(), distances.end());
@@ -86,7 +95,28 @@ TEST_P(FreeFlight, TwoLayerSlabByKolmogorovSmirnov) {
   EXPECT_LT(largest * std::sqrt(double{kFlights}), 1.9495);
   EXPECT_EQ(counters.majorant_violations, 0u);
 }
-INSTANTIATE_TEST_SUITE_P(CellSizes, FreeFlight, testing::Values(1, 4, kGlobal));
+INSTANTIATE_TEST_SUITE_P(CellSizes, FreeFlight,
+                         testing::Combine(testing::Values(1, 4, kGlobal), testing::Bool()));
+
+TEST(FreeFlights, FineOnesFollowTheirThreshold) {
+  // A ramp under one majorant: how far a flight gets depends on its threshold and on chance, less when fine.
+  const TrackedMedium tracked(make_volume<float>({17, 3, 3}, [](auto i, auto, auto) { return i; }),
+                              mu_t_function({{0, 0}, {16, 4}}), kGlobal);
+  const auto spread_mm2 = [&](bool fine) {
+    test::Moments spread;
+    TrackingCounters counters;
+    for (std::uint32_t n = 0; n < 4000; ++n) {
+      TrackRay ray{.ray = {{0, 1, 1}, {1, 0, 0}}, .t_near = 0, .t_far = 16, .fine = fine};
+      ray.u_collision = static_cast<float>(n) / 4000;
+      Rng a(75, 0, 0, n), b(76, 0, 0, n);
+      const float difference = sample_free_flight(tracked.medium, ray, a, counters).t_mm -
+                               sample_free_flight(tracked.medium, ray, b, counters).t_mm;
+      spread.add(0.5 * difference * difference);
+    }
+    return spread.mean();
+  };
+  EXPECT_LT(spread_mm2(true), 0.8 * spread_mm2(false));
+}
 
 TEST(FreeFlights, CarryTheOpticalDepthThroughEmptyCells) {
   // Visible before x = 2 and after x = 14, nothing between: the far part's distribution is that of one

@@ -103,7 +103,12 @@ std::vector<Task> make_tasks(const Medium& medium, int count, std::uint64_t seed
     if (n % 2) ray.origin_index = ray.origin_index - ray.direction_index * (100 * rng.next());
     Interval<float> run = clip_ray(box, ray.origin_index, ray.direction_index, 0.0f, 1e30f);
     if (n % 4 == 0) run.t_far = run.t_near + (run.t_far - run.t_near) * rng.next();
-    if (!run.empty()) tasks.push_back({{ray, run.t_near, run.t_far}, n % 8 < 4, Rng(seed, 1, 0, n)});
+    if (run.empty()) continue;
+    TrackRay track{ray, run.t_near, run.t_far};
+    track.fine = n % 6 < 2;
+    if (n % 9 == 0) track.u_collision = rng.next();
+    if (n % 4 == 0) track.u_depth = rng.next();
+    tasks.push_back({track, n % 8 < 4, Rng(seed, 1, 0, n)});
   }
   return tasks;
 }
