@@ -3,6 +3,7 @@
 #include "film/trace_counters.h"
 #include "integrator/primary_ray.h"
 #include "integrator/scene_view.h"
+#include "light/sample_light.h"
 #include "material/scatter.h"
 #include "tracking/tracking.h"
 
@@ -40,6 +41,7 @@ class CameraPath {
   TrackRay scattered_ray(const SceneView& scene) const noexcept;
   Wait fly(const SceneView& scene, TraceCounters& counters) noexcept;
   Wait end() noexcept;
+  Vec3f weighted(const SceneView& scene, const LightHit& hit) const noexcept;
   Vec3f met_emitters(const SceneView& scene, const Collision& collision) const noexcept;
   Vec3f background(const SceneView& scene) noexcept;
   Wait sample_direct_light(const SceneView& scene, TraceCounters& counters) noexcept;
