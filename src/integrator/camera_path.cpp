@@ -15,7 +15,7 @@ constexpr int kRouletteDepth = 4;
 /// kEnding < 1/2, keep its variance finite, where any constant probability below 1 does not.
 constexpr float kEnding = 0.25f;
 /// A path that carries at least this share of what it began with is spared otherwise: ending it as soon as it
-/// carries less takes 1.3 times the work to the same error in the peer scene.
+/// carries less than all takes 1.3 times the work to the same error in the peer scene.
 constexpr float kSparedThroughput = 1.0f / 3;
 
 /// After the last scattering a direction only adds to what the light samples found: following every other one
@@ -99,7 +99,7 @@ CameraPath::Wait CameraPath::end_flight(const SceneView& scene, const Collision&
     out_.albedo = point_.albedo;
     out_.normal = point_.normal * point_.p_brdf;
   }
-  if (scene.max_scatter > 0 && depth_ == scene.max_scatter) return end();
+  if (scattered_out(scene)) return end();
 
   // Exposure Render decides at every event whether it is a surface or a medium (xu2024 eq. 4, without the
   // division by the probability of the choice, which would double the scattered energy).
@@ -185,8 +185,7 @@ CameraPath::Wait CameraPath::next_light_sample(const SceneView& scene, TraceCoun
 CameraPath::Wait CameraPath::end_shadow_ray(const SceneView& scene, float transmittance,
                                             TraceCounters& counters) noexcept {
   radiance_ += unshadowed_ * transmittance;
-  const bool was_last_flight = scene.max_scatter > 0 && depth_ == scene.max_scatter;
-  return was_last_flight ? end() : next_light_sample(scene, counters);
+  return scattered_out(scene) ? end() : next_light_sample(scene, counters);
 }
 
 /// The probability of following the direction that is drawn at the present scattering.
@@ -228,9 +227,7 @@ CameraPath::Wait CameraPath::scatter(const SceneView& scene, TraceCounters& coun
   hit_samples_ = static_cast<float>(light_samples(scene)) / share;
   if (!(max_component(throughput_) > 0) || !survives()) return end();
   ++depth_;
-  if (scene.max_scatter > 0 && depth_ == scene.max_scatter && !scene.matter_emits)
-    return reach_lights(scene, counters);
-  return fly(scene, counters);
+  return scattered_out(scene) && !scene.matter_emits ? reach_lights(scene, counters) : fly(scene, counters);
 }
 
 /// After the last scattering it does not matter where a flight ends, but what reaches it: an estimate of the

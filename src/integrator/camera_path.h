@@ -37,6 +37,10 @@ class CameraPath {
  private:
   float draw(float first) noexcept;
   UnitPair draw(UnitPair first) noexcept;
+  /// Whether the path has made all the scatterings it may.
+  bool scattered_out(const SceneView& scene) const noexcept {
+    return scene.max_scatter > 0 && depth_ == scene.max_scatter;
+  }
   bool enters() const noexcept { return ray_.t_near < ray_.t_far; }
   TrackRay scattered_ray(const SceneView& scene) const noexcept;
   Wait fly(const SceneView& scene, TraceCounters& counters) noexcept;

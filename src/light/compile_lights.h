@@ -17,7 +17,7 @@ struct SceneSphere {
 
 /// What of the environment light samples are drawn for. kExcess: only what is above its mean; directions that
 /// matter scatters to find the rest, a constant environment altogether, and lights that are hard to find get
-/// the samples ("MIS compensation", Karlik et al. 2019). For use with the directions alone.
+/// the samples ("MIS compensation", Karlik et al. 2019). Complete only together with such directions.
 enum class EnvironmentSamples { kWhole, kExcess };
 
 /// The lights of a scene, validated and in LPS space. Owns the tables behind view().

@@ -159,7 +159,7 @@ class LaneTracker {
     }
     fetch_next_word(where_f, cell, v);
     store_where(where_f, length, lanes_.length_mm, v);
-    // Of shadow rays the threshold is known.
+    // collision_threshold; shadow rays have one to begin with.
     const MaskF flight = hn::And(where_f, to_f(hn::Eq(load(lanes_.is_shadow, v), hn::Zero(kU))));
     const F u_collision = given_or_drawn(flight, lanes_.u_collision, v);
     const F threshold =
