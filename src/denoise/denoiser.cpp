@@ -1,0 +1,23 @@
+#include "denoise/denoiser.h"
+
+#include <fmt/format.h>
+
+#include "voxlume/error.h"
+
+namespace voxlume {
+
+const std::vector<DenoiserKind>& denoiser_kinds() {
+  static const std::vector<DenoiserKind> kinds{};
+  return kinds;
+}
+
+const DenoiserKind& find_denoiser(std::string_view name) {
+  std::string known;
+  for (const DenoiserKind& kind : denoiser_kinds()) {
+    if (kind.name == name) return kind;
+    known += fmt::format("{}{}", known.empty() ? "" : ", ", kind.name);
+  }
+  throw Error(ErrorCode::kBadParameter, "", fmt::format("denoiser \"{}\"; expected one of {}", name, known));
+}
+
+}  // namespace voxlume
