@@ -2,12 +2,26 @@
 
 #include <fmt/format.h>
 
+#include "denoise/decoupled.h"
 #include "voxlume/error.h"
 
 namespace voxlume {
+namespace {
+
+template <class Method>
+std::unique_ptr<Denoiser> make() {
+  return std::make_unique<Method>();
+}
+
+}  // namespace
 
 const std::vector<DenoiserKind>& denoiser_kinds() {
-  static const std::vector<DenoiserKind> kinds{};
+  static const std::vector<DenoiserKind> kinds{
+      {"decoupled",
+       "scattering and arriving light filtered apart, with history (xu2024)",
+       {.classes = true},
+       make<DecoupledDenoiser>},
+  };
   return kinds;
 }
 
