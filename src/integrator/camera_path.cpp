@@ -3,6 +3,7 @@
 #include <limits>
 #include <numbers>
 
+#include "integrator/background.h"
 #include "integrator/scatter_point.h"
 
 namespace voxlume {
@@ -175,20 +176,9 @@ RadianceParts CameraPath::parts() const noexcept {
 
 /// What a camera ray that meets nothing sees.
 Vec3f CameraPath::background(const SceneView& scene) noexcept {
-  switch (scene.background) {
-    case BackgroundKind::kTransparent:
-      return Vec3f(0);
-    case BackgroundKind::kColor:
-      return scene.background_color;
-    case BackgroundKind::kEnvironment:
-      break;
-  }
-  Vec3f direction = direction_world_;
-  if (scene.camera.background_versine > 0) {
-    const float u0 = rng_.next(), u1 = rng_.next();
-    direction = background_direction(scene.camera, px_, py_, u0, u1);
-  }
-  return environment_hit(scene.lights, direction).radiance;
+  const bool draws = blurs_background(scene);
+  const float u0 = draws ? rng_.next() : 0.0f, u1 = draws ? rng_.next() : 0.0f;
+  return background_radiance(scene, px_, py_, direction_world_, u0, u1);
 }
 
 /// Next-event estimation: light from sampled emitters, scattered back along the path.
