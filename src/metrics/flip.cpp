@@ -31,10 +31,12 @@ float largest_color_distance() {
   return color_distance(green, blue);
 }
 
-// The pixel as shown: linear, in [0,1].
-Vec3f shown(const float* rgb) {
-  return {std::clamp(rgb[0], 0.0f, 1.0f), std::clamp(rgb[1], 0.0f, 1.0f), std::clamp(rgb[2], 0.0f, 1.0f)};
+Vec3f clamped(Vec3f rgb) {
+  return {std::clamp(rgb.x, 0.0f, 1.0f), std::clamp(rgb.y, 0.0f, 1.0f), std::clamp(rgb.z, 0.0f, 1.0f)};
 }
+
+// A pixel as a display shows it: linear, in [0,1].
+Vec3f shown(const float* rgb) { return clamped({rgb[0], rgb[1], rgb[2]}); }
 Vec3f shown_exposed(const float* rgb, float scale) {
   const auto develop = [scale](float linear) { return flip_tone_curve(std::max(linear, 0.0f) * scale); };
   return {develop(rgb[0]), develop(rgb[1]), develop(rgb[2])};
@@ -47,7 +49,7 @@ struct TileLook {
   std::vector<float> point = std::vector<float>(kTilePixels);  // size of the features, times 116
 };
 
-// Works on one tile after another; one for each thread that works.
+// Compares tiles, one at a time; the buffers are its own.
 class TileComparison {
  public:
   TileComparison(const FlipFilters& filters, float largest_distance)
@@ -120,7 +122,7 @@ class TileComparison {
     for (int i = 0; i < kTilePixels; ++i) {
       const Vec3f opponent(along_y_[0][i], along_y_[1][i], along_y_[2][i] + along_y_[3][i]);
       const Vec3f rgb = rgb_from_xyz(xyz_from_opponent(opponent));
-      look.lab[i] = hunt_lab_from_xyz(xyz_from_rgb(shown(&rgb.x)));
+      look.lab[i] = hunt_lab_from_xyz(xyz_from_rgb(clamped(rgb)));
     }
   }
 

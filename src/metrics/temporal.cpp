@@ -62,7 +62,8 @@ void ConvergenceTime::add(const Image& image, double seconds) {
     if (below && !settled_) settled_ = moment;
     if (!below) settled_.reset();
   }
-  last_ = image;
+  last_ = Image(image.width, image.height);  // without layers
+  last_.rgba = image.rgba;
 }
 
 }  // namespace voxlume
