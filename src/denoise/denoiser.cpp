@@ -2,12 +2,17 @@
 
 #include <fmt/format.h>
 
+#include "denoise/atrous.h"
+#include "denoise/bilateral.h"
 #include "voxlume/error.h"
 
 namespace voxlume {
 
 const std::vector<DenoiserKind>& denoiser_kinds() {
-  static const std::vector<DenoiserKind> kinds{};
+  static const std::vector<DenoiserKind> kinds{
+      {"atrous", "edge-avoiding a-trous wavelets, one frame", {.normal = true, .albedo = true}, make_atrous},
+      {"bilateral", "joint bilateral filter, one frame", {.normal = true, .albedo = true}, make_bilateral},
+  };
   return kinds;
 }
 
