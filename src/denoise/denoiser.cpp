@@ -4,12 +4,15 @@
 
 #include "denoise/atrous.h"
 #include "denoise/bilateral.h"
+#include "denoise/svgf.h"
 #include "voxlume/error.h"
 
 namespace voxlume {
 
 const std::vector<DenoiserKind>& denoiser_kinds() {
   static const std::vector<DenoiserKind> kinds{
+      {"svgf", "SVGF (schied2017)", {.normal = true, .albedo = true}, make_svgf},
+      {"asvgf", "A-SVGF (schied2018)", {.normal = true, .albedo = true, .gradients = true}, make_asvgf},
       {"atrous", "edge-avoiding a-trous wavelets, one frame", {.normal = true, .albedo = true}, make_atrous},
       {"bilateral", "joint bilateral filter, one frame", {.normal = true, .albedo = true}, make_bilateral},
   };
