@@ -106,8 +106,11 @@ HWY_EXPORT(level_row_by_luminance);
 
 void filter_level(const Signal& in, const Guides& guides, int step, LuminanceStop stop, float sigma,
                   Signal& out) {
-  parallel_for(in.alpha.height(), 8, [&](std::int64_t row) {
-    const int y = static_cast<int>(row);
+  // Rows `step` apart one after the other: they share their neighbours.
+  const int height = in.alpha.height(), rows = (height + step - 1) / step;
+  parallel_for(static_cast<std::int64_t>(rows) * step, 8, [&](std::int64_t i) {
+    const int y = static_cast<int>(i % rows) * step + static_cast<int>(i / rows);
+    if (y >= height) return;
     if (stop == LuminanceStop::kVariance) {
       HWY_DYNAMIC_DISPATCH(level_row_by_variance)(in, guides, step, sigma, y, out);
     } else {
