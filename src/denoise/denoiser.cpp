@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "denoise/atrous.h"
+#include "denoise/bilateral.h"
 #include "denoise/decoupled.h"
+#include "denoise/svgf.h"
 #include "voxlume/error.h"
 
 namespace voxlume {
@@ -21,6 +24,10 @@ const std::vector<DenoiserKind>& denoiser_kinds() {
        "scattering and arriving light filtered apart, with history (xu2024)",
        {.classes = true},
        make<DecoupledDenoiser>},
+      {"svgf", "SVGF (schied2017)", {.normal = true, .albedo = true}, make_svgf},
+      {"asvgf", "A-SVGF (schied2018)", {.normal = true, .albedo = true, .gradients = true}, make_asvgf},
+      {"atrous", "edge-avoiding a-trous wavelets, one frame", {.normal = true, .albedo = true}, make_atrous},
+      {"bilateral", "joint bilateral filter, one frame", {.normal = true, .albedo = true}, make_bilateral},
   };
   return kinds;
 }
