@@ -2,12 +2,18 @@
 
 #include <fmt/format.h>
 
+#include "denoise/wrls.h"
 #include "voxlume/error.h"
 
 namespace voxlume {
 
 const std::vector<DenoiserKind>& denoiser_kinds() {
-  static const std::vector<DenoiserKind> kinds{};
+  static const std::vector<DenoiserKind> kinds{
+      {"wrls", "weighted recursive least squares over time (iglesias2020)", {}, make_wrls<{}>},
+      {"rls", "wrls without weights", {}, make_wrls<{.weighted = false}>},
+      {"wrls-no-feature", "wrls as a mean over time", {}, make_wrls<{.feature = false}>},
+      {"rls-no-feature", "rls as a mean over time", {}, make_wrls<{.weighted = false, .feature = false}>},
+  };
   return kinds;
 }
 
