@@ -4,6 +4,7 @@
 
 #include "denoise/atrous.h"
 #include "denoise/bilateral.h"
+#include "denoise/oidn.h"
 #include "denoise/svgf.h"
 #include "voxlume/error.h"
 
@@ -15,6 +16,7 @@ const std::vector<DenoiserKind>& denoiser_kinds() {
       {"asvgf", "A-SVGF (schied2018)", {.normal = true, .albedo = true, .gradients = true}, make_asvgf},
       {"atrous", "edge-avoiding a-trous wavelets, one frame", {.normal = true, .albedo = true}, make_atrous},
       {"bilateral", "joint bilateral filter, one frame", {.normal = true, .albedo = true}, make_bilateral},
+      {"oidn", "Open Image Denoise, where installed", {.normal = true, .albedo = true}, make_oidn},
   };
   return kinds;
 }
