@@ -7,7 +7,7 @@ namespace {
 
 /// Tolerated at the first level, as a part of the luminance: dammertz2010 has a constant for colours in
 /// [0,1].
-constexpr float kLuminanceSigma = 1;
+constexpr float kLuminanceSigma = 2;
 
 class ATrous final : public Denoiser {
  public:

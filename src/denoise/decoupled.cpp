@@ -4,7 +4,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "denoise/decoupled-inl.h"
+#include "denoise/decoupled_blend-inl.h"
+#include "denoise/decoupled_spatial-inl.h"
 
 #if HWY_ONCE
 #include <utility>
@@ -14,10 +15,15 @@
 
 namespace voxlume {
 
+HWY_EXPORT(luminance_row);
+HWY_EXPORT(variance_row);
 HWY_EXPORT(filter_fx_row);
 HWY_EXPORT(filter_light_row);
 HWY_EXPORT(blend_row);
+HWY_EXPORT(filter_light_again_row);
 HWY_EXPORT(compose_row);
+HWY_EXPORT(restore_row);
+HWY_EXPORT(blend_mean_row);
 
 namespace {
 
@@ -31,10 +37,10 @@ void resize_planes(Planes3& planes, int width, int height) { planes = make_plane
 void resize_history(DecoupledHistory& history, int width, int height) {
   for (SampleClass& c : history.classes) {
     c.count = Plane(width, height);
-    for (Planes3* planes : {&c.fx_diffuse, &c.fx_specular, &c.fl, &c.later})
+    for (Planes3* planes : {&c.fx_diffuse, &c.fx_specular, &c.fl_diffuse, &c.fl_specular, &c.later})
       resize_planes(*planes, width, height);
   }
-  history.alpha = history.depth_mm = Plane(width, height);
+  history.alpha = history.depth_mm = history.luminance = Plane(width, height);
 }
 
 /// 1 / mean luminance of the light of all samples that scattered, so that nothing depends on its unit.
@@ -47,8 +53,9 @@ float inverse_light(const DenoiseFrame& frame, std::vector<double>& row_sums) {
       for (int x = 0; x < frame.width; ++x) {
         const float count = c.count.at(x, y);
         if (!(count > 0)) continue;
-        const Vec3f l(c.fl[0].at(x, y) + c.later[0].at(x, y), c.fl[1].at(x, y) + c.later[1].at(x, y),
-                      c.fl[2].at(x, y) + c.later[2].at(x, y));
+        const Vec3f l(c.fl_diffuse[0].at(x, y) + c.later[0].at(x, y),
+                      c.fl_diffuse[1].at(x, y) + c.later[1].at(x, y),
+                      c.fl_diffuse[2].at(x, y) + c.later[2].at(x, y));
         light += count * luminance(l);
         samples += count;
       }
@@ -66,10 +73,11 @@ float inverse_light(const DenoiseFrame& frame, std::vector<double>& row_sums) {
 void DecoupledDenoiser::resize(int width, int height) {
   if (now_.alpha.width() == width && now_.alpha.height() == height) return;
   for (std::array<Planes3, 2>* both :
-       {&stages_.fx_diffuse, &stages_.fx_specular, &stages_.fl, &stages_.later})
+       {&stages_.fx_diffuse, &stages_.fx_specular, &stages_.fl_diffuse, &stages_.fl_specular, &stages_.later})
     for (Planes3& planes : *both) resize_planes(planes, width, height);
   resize_planes(stages_.matter, width, height);
-  stages_.scattered = Plane(width, height);
+  resize_planes(stages_.residual, width, height);
+  stages_.scattered = stages_.variance = stages_.error = Plane(width, height);
   resize_history(now_, width, height);
   resize_history(before_, width, height);
   has_history_ = false;
@@ -88,10 +96,29 @@ void DecoupledDenoiser::denoise(const DenoiseFrame& frame, DenoisedFrame& out) {
   const auto for_rows = [&](const auto& body) {
     parallel_for(frame.height, kRowsAtOnce, [&](std::int64_t y) { body(static_cast<int>(y)); });
   };
+  make_guides(frame, stages_.guides);
+  for_rows([&](int y) { HWY_DYNAMIC_DISPATCH(luminance_row)(frame, y, stages_.error); });
+  local_mean_(stages_.error, stages_.error);
+  for_rows([&](int y) { HWY_DYNAMIC_DISPATCH(variance_row)(frame, stages_.error, y, stages_.variance); });
+  local_mean_(stages_.variance, stages_.variance);
   for_rows([&](int y) { HWY_DYNAMIC_DISPATCH(filter_fx_row)(frame, y, stages_); });
   for_rows([&](int y) { HWY_DYNAMIC_DISPATCH(filter_light_row)(frame, y, stages_); });
+  for_rows([&](int y) {
+    HWY_DYNAMIC_DISPATCH(filter_light_again_row)(frame, moved, before_.luminance, y, stages_, now_);
+  });
+  if (moved != nullptr) local_mean_(stages_.error, stages_.error);
   for_rows([&](int y) { HWY_DYNAMIC_DISPATCH(blend_row)(frame, moved, before_, y, stages_, now_); });
-  for_rows([&](int y) { HWY_DYNAMIC_DISPATCH(compose_row)(stages_, now_, y, out); });
+  for_rows([&](int y) {
+    HWY_DYNAMIC_DISPATCH(compose_row)(frame, stages_, now_, y, out, stages_.residual, now_.luminance);
+  });
+  for (Plane& plane : stages_.residual) local_mean_(plane, plane);
+  for_rows([&](int y) {
+    HWY_DYNAMIC_DISPATCH(restore_row)(frame, stages_.variance, stages_.residual, y, out, stages_.error);
+  });
+  local_mean_(stages_.error, stages_.error);
+  for_rows([&](int y) {
+    HWY_DYNAMIC_DISPATCH(blend_mean_row)(frame, stages_.variance, stages_.error, y, out);
+  });
   std::swap(now_, before_);
   camera_before_ = frame.camera;
   has_history_ = true;

@@ -5,6 +5,7 @@
 #include "denoise/atrous.h"
 #include "denoise/bilateral.h"
 #include "denoise/decoupled.h"
+#include "denoise/oidn.h"
 #include "denoise/svgf.h"
 #include "denoise/wrls.h"
 #include "voxlume/error.h"
@@ -23,7 +24,7 @@ const std::vector<DenoiserKind>& denoiser_kinds() {
   static const std::vector<DenoiserKind> kinds{
       {"decoupled",
        "scattering and arriving light filtered apart, with history (xu2024)",
-       {.classes = true},
+       {.normal = true, .albedo = true, .classes = true},
        make<DecoupledDenoiser>},
       {"svgf", "SVGF (schied2017)", {.normal = true, .albedo = true}, make_svgf},
       {"asvgf", "A-SVGF (schied2018)", {.normal = true, .albedo = true, .gradients = true}, make_asvgf},
@@ -33,6 +34,7 @@ const std::vector<DenoiserKind>& denoiser_kinds() {
       {"rls", "wrls without weights", {}, make_wrls<{.weighted = false}>},
       {"wrls-no-feature", "wrls as a mean over time", {}, make_wrls<{.feature = false}>},
       {"rls-no-feature", "rls as a mean over time", {}, make_wrls<{.weighted = false, .feature = false}>},
+      {"oidn", "Open Image Denoise, where installed", {.normal = true, .albedo = true}, make_oidn},
   };
   return kinds;
 }

@@ -7,11 +7,12 @@
 
 namespace voxlume {
 
-/// Samples of a pixel that scattered alike at first, of which a pixel has up to two classes: means of their
-/// RadianceParts (film/film.h) over the samples of the class; zero in an empty class.
+/// Samples of a pixel that scattered alike at first, of which a pixel has up to two classes. Means over the
+/// samples of the class of fx and later (RadianceParts, film/film.h); fl is the ratio of the means of direct
+/// light and fx, so that fx fl + later is the mean radiance exactly. Zero in an empty class.
 struct SampleClass {
   Plane count;  ///< n_k; 0: the pixel has no such class
-  Planes3 fx_diffuse, fx_specular, fl, later;
+  Planes3 fx_diffuse, fx_specular, fl_diffuse, fl_specular, later;
 };
 
 /// Two luminances of one sample in every 3 x 3 pixels: the sample of the frame before, and the same sample

@@ -17,7 +17,7 @@ constexpr float kDepthFloor = 0.002f;
 /// schied2017 section 4.4: sigma_n = 128, halved for squared distances.
 constexpr float kNormalExponent = 64;
 /// Squared length by which normals of single samples scatter about a surface in scanned data.
-constexpr float kNormalScatter = 0.25f;
+constexpr float kNormalScatter = 0.1f;
 
 struct Features {
   F depth;

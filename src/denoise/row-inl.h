@@ -33,6 +33,9 @@ HWY_INLINE F3 zero3() { return {hn::Zero(kD), hn::Zero(kD), hn::Zero(kD)}; }
 HWY_INLINE F3 add_scaled(F3 a, F3 b, F s) {
   return {hn::MulAdd(b.x, s, a.x), hn::MulAdd(b.y, s, a.y), hn::MulAdd(b.z, s, a.z)};
 }
+HWY_INLINE F3 add(F3 a, F3 b) { return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)}; }
+/// By component.
+HWY_INLINE F3 multiply(F3 a, F3 b) { return {hn::Mul(a.x, b.x), hn::Mul(a.y, b.y), hn::Mul(a.z, b.z)}; }
 HWY_INLINE F3 sub(F3 a, F3 b) { return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)}; }
 HWY_INLINE F3 scale(F3 a, F s) { return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)}; }
 HWY_INLINE F dot(F3 a, F3 b) { return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z))); }

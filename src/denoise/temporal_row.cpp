@@ -110,6 +110,20 @@ HWY_INLINE F of_stratum(const Plane& plane, int x, int y) {
   return hn::GatherIndex(kD, plane.row(y / 3), hn::ConvertTo(kInts, stratum));
 }
 
+/// What 3 x 3 pixels have at least and at most. Where matter moves, the soft edge that repeated interpolation
+/// makes of its outline stays as narrow as a pixel.
+HWY_INLINE F clamp_to_neighbours(F value, const Plane& plane, int x, int y) {
+  F least = load(plane, x, y), most = least;
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) {
+      const F neighbour = load(plane, x + dx, y + dy);
+      least = hn::Min(least, neighbour);
+      most = hn::Max(most, neighbour);
+    }
+  }
+  return hn::Min(hn::Max(value, least), most);
+}
+
 HWY_INLINE F mix(F from, F to, F share) { return hn::MulAdd(hn::Sub(to, from), share, from); }
 
 void blend_columns(const TemporalInput& in, const GuideRows& guides, int x, int y, std::size_t lanes,
@@ -129,11 +143,14 @@ void blend_columns(const TemporalInput& in, const GuideRows& guides, int x, int 
 
   const F3 radiance = load(in.frame.radiance, x, y);
   const F alpha = load(in.frame.alpha, x, y), y_radiance = luminance(radiance);
-  const F old_alpha = hn::Mul(old.alpha, part);
+  const F found_alpha = hn::Mul(old.alpha, part);
+  const F kept =
+      hn::Mul(clamp_to_neighbours(found_alpha, in.frame.alpha, x, y), inverse_or_zero(found_alpha));
+  const F old_alpha = hn::Mul(found_alpha, kept), old_part = hn::Mul(part, kept);
   const F new_alpha = mix(old_alpha, alpha, share);
-  const F first = mix(hn::Mul(old.first, part), y_radiance, share);
-  const F second =
-      mix(hn::Mul(old.second, part), hn::Mul(hn::Mul(y_radiance, y_radiance), inverse_or_zero(alpha)), share);
+  const F first = mix(hn::Mul(old.first, old_part), y_radiance, share);
+  const F second = mix(hn::Mul(old.second, old_part),
+                       hn::Mul(hn::Mul(y_radiance, y_radiance), inverse_or_zero(alpha)), share);
   const F3 old_radiance = scale(old.color, hn::Mul(inverse_or_zero(old.color_alpha), old_alpha));
   const F3 blended{mix(old_radiance.x, radiance.x, share), mix(old_radiance.y, radiance.y, share),
                    mix(old_radiance.z, radiance.z, share)};

@@ -18,22 +18,24 @@ struct PixelSample {
   float depth_mm = 0;  ///< from the eye to the first scattering
 };
 
-/// What a camera sample's radiance is made of: radiance = (fx_diffuse + fx_specular) * fl + later (xu2024
-/// eq. 8), by channel. Zeros for a sample that did not scatter.
+/// What a camera sample's radiance is made of: radiance = direct_diffuse + direct_specular + later, and
+/// direct = fx fl by channel (xu2024 eq. 8), where fl is what shadows and the choice of light make noisy.
+/// Zeros for a sample that did not scatter.
 struct RadianceParts {
-  /// How the first scattering scatters the light that reaches it, times pi: a white Lambert surface has
-  /// cos_i. The phase function belongs to the diffuse part.
+  /// How the first scattering would look without shadows (integrator/unshadowed.h): of high detail and little
+  /// noise. The phase function belongs to the diffuse part.
   Vec3f fx_diffuse{}, fx_specular{};
-  Vec3f fl{};     ///< light that reaches the first scattering, over its sampling density and over pi
-  Vec3f later{};  ///< emission, ambient light and light of later scatterings
-  bool dense =
-      false;  ///< whether the extinction at the first scattering is that of what stands for the pixel
+  /// Light that the first scattering scatters to the eye. Zero in a channel without fx.
+  Vec3f direct_diffuse{}, direct_specular{};
+  Vec3f later{};  ///< emission, ambient light, light of later scatterings, and what has no fx
+  /// Whether the extinction at the first scattering is that of matter that stands for the pixel.
+  bool dense = false;
 };
 
 /// Samples of one pixel that scattered alike at first: sums over them.
 struct ClassSums {
   std::uint32_t count = 0;
-  Vec3f fx_diffuse{}, fx_specular{}, fl{}, later{};
+  Vec3f fx_diffuse{}, fx_specular{}, direct_diffuse{}, direct_specular{}, later{};
 };
 
 /// The samples of a pixel that scattered, in two classes (xu2024 section 5.1).

@@ -18,8 +18,8 @@ struct Candidate {
 
 bool usable(const PixelSample& sample, const RadianceParts& parts) noexcept {
   return sample.alpha > 0 && is_finite(sample.radiance) && std::isfinite(sample.depth_mm) &&
-         is_finite(parts.fx_diffuse) && is_finite(parts.fx_specular) && is_finite(parts.fl) &&
-         is_finite(parts.later);
+         is_finite(parts.fx_diffuse) && is_finite(parts.fx_specular) && is_finite(parts.direct_diffuse) &&
+         is_finite(parts.direct_specular) && is_finite(parts.later);
 }
 
 /// Of the diffuse part: a peak of the specular one alone makes no class.
@@ -28,7 +28,7 @@ float class_luminance(const ClassSums& sums) noexcept {
   return luminance(sums.fx_diffuse) / static_cast<float>(sums.count);
 }
 
-static_assert(sizeof(PixelClasses) == 144, "checkpoints hold it as bytes: no padding");
+static_assert(sizeof(PixelClasses) == 168, "checkpoints hold it as bytes: no padding");
 
 /// How many of the candidates, in ascending order of luminance, the first class takes.
 std::size_t first_class_size(std::span<const Candidate> sorted) noexcept {
@@ -53,7 +53,8 @@ void add_to(ClassSums& sums, const RadianceParts& parts) noexcept {
   ++sums.count;
   sums.fx_diffuse += parts.fx_diffuse;
   sums.fx_specular += parts.fx_specular;
-  sums.fl += parts.fl;
+  sums.direct_diffuse += parts.direct_diffuse;
+  sums.direct_specular += parts.direct_specular;
   sums.later += parts.later;
 }
 

@@ -1,10 +1,10 @@
 #include "integrator/camera_path.h"
 
 #include <limits>
-#include <numbers>
 
 #include "integrator/background.h"
 #include "integrator/scatter_point.h"
+#include "integrator/unshadowed.h"
 
 namespace voxlume {
 namespace {
@@ -115,6 +115,8 @@ CameraPath::Wait CameraPath::end_flight(const SceneView& scene, const Collision&
   if (scene.scattering.shading == Shading::kExposureRender)
     point_.p_brdf = rng_.next() < point_.p_brdf ? 1.0f : 0.0f;
   choice_ = scatter_choice(point_, -direction_world_);
+  if (scene.keeps_parts && depth_ == 0)
+    first_light_.fx = unshadowed_shading(scene.lights, point_, -direction_world_, p_world_);
   ++counters.scatterings;
   radiance_ += throughput_ * point_.albedo * scene.ambient;
   if (scene.light_sampling == LightSampling::kDirection || scene.lights.pick.count == 0)
@@ -141,36 +143,24 @@ Vec3f CameraPath::weighted(const SceneView& scene, const LightHit& hit) const no
   return hit.radiance * weight;
 }
 
-/// Adds light that arrived at the first scattering from the direction under way.
+/// Adds light that arrives at the first scattering from the direction under way.
 void CameraPath::add_first(Vec3f light) noexcept {
-  first_light_.fl += light;
   first_light_.diffuse += (first_light_.now.diffuse + first_light_.now.phase) * light;
   first_light_.specular += first_light_.now.specular * light;
 }
 
-/// Begins a direction at the first scattering, whose light counts `weight` times.
-void CameraPath::look_first(const ScatterParts& scattered, float weight) noexcept {
-  first_light_.now = scattered;
-  first_light_.weight = weight;
-  first_light_.all_diffuse += scattered.diffuse + scattered.phase;
-  first_light_.all_specular += scattered.specular;
-  ++first_light_.directions;
-}
-
 RadianceParts CameraPath::parts() const noexcept {
-  constexpr float kPi = std::numbers::pi_v<float>;
   RadianceParts parts;
   if (!(out_.alpha > 0)) return parts;
-  const FirstLight& first = first_light_;
-  const float looked = static_cast<float>(std::max(first.directions, 1));
+  parts.fx_diffuse = first_light_.fx.diffuse;
+  parts.fx_specular = first_light_.fx.specular;
+  parts.later = out_.radiance;
   for (int c = 0; c < 3; ++c) {
-    const bool lit = first.fl[c] > 0;
-    parts.fx_diffuse[c] = kPi * (lit ? first.diffuse[c] / first.fl[c] : first.all_diffuse[c] / looked);
-    parts.fx_specular[c] = kPi * (lit ? first.specular[c] / first.fl[c] : first.all_specular[c] / looked);
+    if (parts.fx_diffuse[c] > 0) parts.direct_diffuse[c] = first_light_.diffuse[c];
+    if (parts.fx_specular[c] > 0) parts.direct_specular[c] = first_light_.specular[c];
+    parts.later[c] = std::max(parts.later[c] - parts.direct_diffuse[c] - parts.direct_specular[c], 0.0f);
   }
-  parts.fl = first.fl * (1 / kPi);
-  parts.later = max(out_.radiance - first.diffuse - first.specular, Vec3f(0));
-  parts.dense = first.dense;
+  parts.dense = first_light_.dense;
   return parts;
 }
 
@@ -199,7 +189,7 @@ CameraPath::Wait CameraPath::next_light_sample(const SceneView& scene, TraceCoun
     const ScatterParts scattered = eval_scatter_parts(point_, choice_, -direction_world_, light.wi);
     const Vec3f value = scattered.diffuse + scattered.specular + scattered.phase;
     const bool first = scene.keeps_parts && depth_ == 0;
-    if (first) look_first(scattered, 0);
+    if (first) first_light_.now = scattered;
     if (!(max_component(value * light.radiance) > 0)) continue;
 
     const float pdf = light.pdf * count;
@@ -260,8 +250,10 @@ CameraPath::Wait CameraPath::scatter(const SceneView& scene, TraceCounters& coun
   const auto [u0, u1] = draw(first_.direction);
   const ScatterSample sample = sample_scatter(point_, choice_, -direction_world_, u_lobe, u0, u1);
   if (!(sample.pdf > 0)) return end();
-  if (scene.keeps_parts && depth_ == 0)
-    look_first(eval_scatter_parts(point_, choice_, -direction_world_, sample.wi), 1 / (sample.pdf * share));
+  if (scene.keeps_parts && depth_ == 0) {
+    first_light_.now = eval_scatter_parts(point_, choice_, -direction_world_, sample.wi);
+    first_light_.weight = 1 / (sample.pdf * share);
+  }
   throughput_ *= sample.value / (sample.pdf * share);
   origin_world_ = p_world_;
   direction_world_ = sample.wi;

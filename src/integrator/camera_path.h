@@ -3,6 +3,7 @@
 #include "film/trace_counters.h"
 #include "integrator/primary_ray.h"
 #include "integrator/scene_view.h"
+#include "integrator/unshadowed.h"
 #include "light/sample_light.h"
 #include "material/scatter.h"
 #include "tracking/tracking.h"
@@ -51,7 +52,6 @@ class CameraPath {
   Vec3f met_emitters(const SceneView& scene, const Collision& collision) const noexcept;
   Vec3f background(const SceneView& scene) noexcept;
   void add_first(Vec3f light) noexcept;
-  void look_first(const ScatterParts& scattered, float weight) noexcept;
   Wait sample_direct_light(const SceneView& scene, TraceCounters& counters) noexcept;
   Wait next_light_sample(const SceneView& scene, TraceCounters& counters) noexcept;
   int light_samples(const SceneView& scene) const noexcept { return depth_ == 0 ? scene.light_samples : 1; }
@@ -81,14 +81,13 @@ class CameraPath {
   Vec3f radiance_;
   PixelSample out_;
 
-  /// Light that reached the first scattering, for RadianceParts.
+  /// Of the first scattering, for RadianceParts.
   struct FirstLight {
-    Vec3f fl, diffuse, specular;      ///< sums of E_k and h_k E_k over the techniques (xu2024 eq. 7)
-    Vec3f all_diffuse, all_specular;  ///< sums of h_k over the directions looked at
-    int directions;                   ///< how many those are
-    ScatterParts now;                 ///< h_k of the direction under way
-    float weight;                     ///< of light met there, where a path follows it
-    Vec3f arriving;                   ///< E_k of the shadow ray under way, without its transmittance
+    UnshadowedShading fx;
+    Vec3f diffuse, specular;  ///< sums of h_k E_k over the techniques (xu2024 section 5.1)
+    ScatterParts now;         ///< h_k of the direction under way
+    float weight;             ///< of light met there, where a path follows it
+    Vec3f arriving;           ///< E_k of the shadow ray under way, without its transmittance
     bool dense;
   } first_light_{};
 };

@@ -248,6 +248,7 @@ LightsView Lights::view() const {
   out.rect_count = rect_count_;
   out.has_environment = has_environment_;
   out.environment = environment_;
+  out.environment_mean = mean_environment_;
   out.environment.texels = texels_.data();
   out.environment.cap_versine = cap_versine_.data();
   out.environment.choice = texel_choice_.view();

@@ -42,9 +42,6 @@ class Lights {
   /// Valid while this lives, also after a move.
   LightsView view() const;
 
-  /// Mean over all directions, for EnvironmentDescription::ambient.
-  Vec3f mean_environment_radiance() const { return mean_environment_; }
-
  private:
   void compile_environment(const EnvironmentDescription& description, const EnvironmentImage* image,
                            const ViewFrame& camera, EnvironmentSamples samples);

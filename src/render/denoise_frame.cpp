@@ -31,12 +31,18 @@ Vec3f background_behind(const SceneView& scene, int x, int y) {
   return sum * (1.0f / (kBackgroundSide * kBackgroundSide));
 }
 
+/// 0 where there is nothing to divide by.
+Vec3f ratio(Vec3f a, Vec3f b) {
+  return {b.x > 0 ? a.x / b.x : 0.0f, b.y > 0 ? a.y / b.y : 0.0f, b.z > 0 ? a.z / b.z : 0.0f};
+}
+
 void fill_class(const ClassSums& sums, SampleClass& out, int x, int y) {
   const float inverse = sums.count > 0 ? 1.0f / static_cast<float>(sums.count) : 0.0f;
   out.count.at(x, y) = static_cast<float>(sums.count);
   set(out.fx_diffuse, x, y, sums.fx_diffuse * inverse);
   set(out.fx_specular, x, y, sums.fx_specular * inverse);
-  set(out.fl, x, y, sums.fl * inverse);
+  set(out.fl_diffuse, x, y, ratio(sums.direct_diffuse, sums.fx_diffuse));
+  set(out.fl_specular, x, y, ratio(sums.direct_specular, sums.fx_specular));
   set(out.later, x, y, sums.later * inverse);
 }
 

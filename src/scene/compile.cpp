@@ -213,7 +213,7 @@ void CompiledScene::compile_lights_and_camera(const SceneDescription& local) {
   lights_.emplace(*local.lights, environment, picture ? &*picture : nullptr, view_frame(view_.camera),
                   SceneSphere{center, radius}, samples);
   view_.lights = lights_->view();
-  if (environment.ambient) view_.ambient = lights_->mean_environment_radiance();
+  if (environment.ambient) view_.ambient = view_.lights.environment_mean;
   view_.background = description_.background->kind;
   view_.background_color = to_vec(description_.background->color);
 }
