@@ -23,9 +23,10 @@ class TemporalHistory {
   /// something else was. `change` (null: none) is 0..1 for each 3 x 3 pixels and blends that weight, and the
   /// history's length, toward those of a first frame.
   ///
-  /// `colors` has the colours of the frame before, as radiance / alpha. `out` becomes the blended signal; its
-  /// variance is that of a frame's luminance over the history, or, where n < 4, over 7 x 7 pixels, times 4 /
-  /// n.
+  /// `colors` has the colours of the frame before, as radiance / alpha. `out` becomes the blended signal. Its
+  /// variance is that of a frame's luminance over the history, divided by the frames that the mean is worth;
+  /// or, where n < 4, that over 7 x 7 pixels, times 4 / n. (SVGF leaves out the division, which is too much
+  /// for colours whose texture has not been divided out.)
   void blend(const DenoiseFrame& frame, const Guides& guides, const Signal& colors, const Plane* change,
              Signal& out);
 

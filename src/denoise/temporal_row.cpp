@@ -158,14 +158,15 @@ void blend_columns(const TemporalInput& in, const GuideRows& guides, int x, int 
   store(first, now.first, x, y, lanes);
   store(second, now.second, x, y, lanes);
   store(frames, now.frames, x, y, lanes);
-  store(hn::Mul(load(in.frame.samples, x, y), hn::Min(frames, hn::Set(kD, kFramesOfMean))), alpha_counts, x,
-        y, lanes);
+  const F worth = hn::Min(frames, hn::Set(kD, kFramesOfMean));
+  store(hn::Mul(load(in.frame.samples, x, y), worth), alpha_counts, x, y, lanes);
 
   const F by_alpha = inverse_or_zero(new_alpha), mean = hn::Mul(first, by_alpha);
   store(blended, out.radiance, x, y, lanes);
   store(new_alpha, out.alpha, x, y, lanes);
   store(hn::Mul(luminance(blended), by_alpha), out.luminance, x, y, lanes);
-  store(hn::Max(zero, hn::NegMulAdd(mean, mean, hn::Mul(second, by_alpha))), out.variance, x, y, lanes);
+  const F of_a_frame = hn::Max(zero, hn::NegMulAdd(mean, mean, hn::Mul(second, by_alpha)));
+  store(hn::Div(of_a_frame, worth), out.variance, x, y, lanes);
 }
 
 void blend_row(const TemporalInput& in, int y, TemporalMeans& now, Plane& alpha_counts, Signal& out) {
