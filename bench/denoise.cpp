@@ -110,26 +110,31 @@ DenoiseFrame make_frame(int width, int height, int index) {
 }
 
 struct Timed {
-  const DenoiserKind* kind;
-  std::unique_ptr<Denoiser> denoiser;
-  DenoisedFrame out;
-  std::string missing;  ///< why it does not run here
-  std::vector<double> one_thread_ms, all_threads_ms;
+  const DenoiserKind* kind = nullptr;
+  std::unique_ptr<Denoiser> denoiser{};
+  DenoisedFrame out{};
+  std::string missing{};  ///< why it does not run here
+  std::vector<double> one_thread_ms{}, all_threads_ms{};
+  double spent_ms = 0;
 };
+
+/// A method that has taken as long as this is not measured again.
+constexpr double kEnough_ms = 20e3;
 
 /// On one thread it is processor time, which leaves out what other programs take; wall time on all.
 double time_ms(Timed& timed, const DenoiseFrame& frame, int threads) {
   const ThreadLimit limit(threads);
   const auto clock = threads == 1 ? processor_ms : now_ms;
-  const double start = clock();
+  const double start = clock(), start_wall = now_ms();
   timed.denoiser->denoise(frame, timed.out);
+  timed.spent_ms += now_ms() - start_wall;
   return clock() - start;
 }
 
 std::vector<Timed> make_all(const DenoiseFrame& frame) {
   std::vector<Timed> all;
   for (const DenoiserKind& kind : denoiser_kinds()) {
-    Timed& timed = all.emplace_back(Timed{&kind, nullptr, {}, {}, {}, {}});
+    Timed& timed = all.emplace_back(Timed{.kind = &kind});
     try {
       timed.denoiser = kind.make();
       timed.denoiser->denoise(frame, timed.out);
@@ -147,7 +152,7 @@ Json measure(int rounds, int width, int height) {
   std::vector<Timed> all = make_all(frames[0]);
   for (int round = 0; round < rounds; ++round) {
     for (Timed& timed : all) {
-      if (!timed.missing.empty()) continue;
+      if (!timed.missing.empty() || timed.spent_ms > kEnough_ms) continue;
       // There and back again: each frame is next to the one before.
       timed.all_threads_ms.push_back(time_ms(timed, frames[round % 2 == 0 ? 1 : 3], 0));
       timed.one_thread_ms.push_back(time_ms(timed, frames[round % 2 == 0 ? 2 : 0], 1));

@@ -38,7 +38,8 @@ struct SpreadAllocator {
 /// zero there (alpha).
 class Plane {
  public:
-  /// How far beyond the picture rows and columns can be read.
+  /// How far beyond the picture rows and columns can be read. A vector that begins there may end beyond; it
+  /// reads what follows in memory.
   static constexpr int kBorder = 32;
 
   Plane() = default;
@@ -47,7 +48,7 @@ class Plane {
       : width_(width),
         height_(height),
         stride_(width + 2 * kBorder),
-        values_(static_cast<std::size_t>(stride_) * (height + 2 * kBorder)) {}
+        values_(static_cast<std::size_t>(stride_) * (height + 2 * kBorder) + kBorder) {}
 
   int width() const noexcept { return width_; }
   int height() const noexcept { return height_; }

@@ -8,7 +8,7 @@ namespace voxlume {
 namespace {
 
 /// Of schied2017 section 4.4: tolerated difference in luminance, in standard deviations.
-constexpr float kLuminanceSigma = 2;
+constexpr float kLuminanceSigma = 4;
 
 class Svgf final : public Denoiser {
  public:

@@ -20,12 +20,14 @@ class TemporalHistory {
  public:
   /// Blends the frame into its history. The frame weighs max(0.2, 1 / n) of a history of n <= 32 frames,
   /// itself included, and all of it where the matter was not in the picture or where depth or normal say that
-  /// something else was. `change` (null: none) is 0..1 for each 3 x 3 pixels and blends that weight, and the
-  /// history's length, toward those of a first frame.
+  /// something else was. The history's alpha is kept to what the frame's own samples make likely. `change`
+  /// (null: none) is 0..1 for each 3 x 3 pixels and blends that weight, and the history's length, toward
+  /// those of a first frame.
   ///
-  /// `colors` has the colours of the frame before, as radiance / alpha. `out` becomes the blended signal; its
-  /// variance is that of a frame's luminance over the history, or, where n < 4, over 7 x 7 pixels, times 4 /
-  /// n.
+  /// `colors` has the colours of the frame before, as radiance / alpha. `out` becomes the blended signal. Its
+  /// variance is that of a frame's luminance over the history, divided by the frames that the mean is worth;
+  /// or, where n < 4, that over 7 x 7 pixels, times 4 / n. (SVGF leaves out the division, which is too much
+  /// for colours whose texture has not been divided out.)
   void blend(const DenoiseFrame& frame, const Guides& guides, const Signal& colors, const Plane* change,
              Signal& out);
 

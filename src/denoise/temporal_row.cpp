@@ -21,6 +21,8 @@ constexpr float kShort = 4;
 constexpr float kDepthTolerance = 10;
 /// How far normals may differ: squared, times Guides::feature_rate. Half a radian for exact ones.
 constexpr float kNormalTolerance = 16;
+/// How far alpha may have been from what the frame says, in standard deviations of its samples.
+constexpr float kAlphaTolerance = 1.5f;
 /// Frames that a mean with the least weight amounts to: (2 - w) / w.
 constexpr float kFramesOfMean = (2 - kLeastWeight) / kLeastWeight;
 
@@ -110,18 +112,26 @@ HWY_INLINE F of_stratum(const Plane& plane, int x, int y) {
   return hn::GatherIndex(kD, plane.row(y / 3), hn::ConvertTo(kInts, stratum));
 }
 
-/// What 3 x 3 pixels have at least and at most. Where matter moves, the soft edge that repeated interpolation
-/// makes of its outline stays as narrow as a pixel.
-HWY_INLINE F clamp_to_neighbours(F value, const Plane& plane, int x, int y) {
-  F least = load(plane, x, y), most = least;
+/// Alpha as the frame allows: within what 3 x 3 pixels have, and within kAlphaTolerance standard deviations
+/// of what the pixel's own samples say: (k + 1) / (n + 2) for k of n that scattered. Else matter that moves
+/// would leave its outline behind.
+HWY_INLINE F clamp_alpha(F value, const DenoiseFrame& frame, int x, int y) {
+  const F one = hn::Set(kD, 1.0f), own = load(frame.alpha, x, y);
+  F least = own, most = own;
   for (int dy = -1; dy <= 1; ++dy) {
     for (int dx = -1; dx <= 1; ++dx) {
-      const F neighbour = load(plane, x + dx, y + dy);
+      const F neighbour = load(frame.alpha, x + dx, y + dy);
       least = hn::Min(least, neighbour);
       most = hn::Max(most, neighbour);
     }
   }
-  return hn::Min(hn::Max(value, least), most);
+  const F samples = load(frame.samples, x, y);
+  const F trials = hn::Div(one, hn::Add(samples, hn::Set(kD, 2.0f)));
+  const F likely = hn::Mul(hn::MulAdd(own, samples, one), trials);
+  const F deviation = hn::Sqrt(hn::Mul(hn::Mul(likely, hn::Sub(one, likely)), trials));
+  const F off = hn::Mul(hn::Set(kD, kAlphaTolerance), deviation);
+  const F within = hn::Min(hn::Max(value, hn::Sub(likely, off)), hn::Add(likely, off));
+  return hn::Min(hn::Max(within, least), most);
 }
 
 HWY_INLINE F mix(F from, F to, F share) { return hn::MulAdd(hn::Sub(to, from), share, from); }
@@ -144,8 +154,7 @@ void blend_columns(const TemporalInput& in, const GuideRows& guides, int x, int 
   const F3 radiance = load(in.frame.radiance, x, y);
   const F alpha = load(in.frame.alpha, x, y), y_radiance = luminance(radiance);
   const F found_alpha = hn::Mul(old.alpha, part);
-  const F kept =
-      hn::Mul(clamp_to_neighbours(found_alpha, in.frame.alpha, x, y), inverse_or_zero(found_alpha));
+  const F kept = hn::Mul(clamp_alpha(found_alpha, in.frame, x, y), inverse_or_zero(found_alpha));
   const F old_alpha = hn::Mul(found_alpha, kept), old_part = hn::Mul(part, kept);
   const F new_alpha = mix(old_alpha, alpha, share);
   const F first = mix(hn::Mul(old.first, old_part), y_radiance, share);
@@ -158,14 +167,15 @@ void blend_columns(const TemporalInput& in, const GuideRows& guides, int x, int 
   store(first, now.first, x, y, lanes);
   store(second, now.second, x, y, lanes);
   store(frames, now.frames, x, y, lanes);
-  store(hn::Mul(load(in.frame.samples, x, y), hn::Min(frames, hn::Set(kD, kFramesOfMean))), alpha_counts, x,
-        y, lanes);
+  const F worth = hn::Min(frames, hn::Set(kD, kFramesOfMean));
+  store(hn::Mul(load(in.frame.samples, x, y), worth), alpha_counts, x, y, lanes);
 
   const F by_alpha = inverse_or_zero(new_alpha), mean = hn::Mul(first, by_alpha);
   store(blended, out.radiance, x, y, lanes);
   store(new_alpha, out.alpha, x, y, lanes);
   store(hn::Mul(luminance(blended), by_alpha), out.luminance, x, y, lanes);
-  store(hn::Max(zero, hn::NegMulAdd(mean, mean, hn::Mul(second, by_alpha))), out.variance, x, y, lanes);
+  const F of_a_frame = hn::Max(zero, hn::NegMulAdd(mean, mean, hn::Mul(second, by_alpha)));
+  store(hn::Div(of_a_frame, worth), out.variance, x, y, lanes);
 }
 
 void blend_row(const TemporalInput& in, int y, TemporalMeans& now, Plane& alpha_counts, Signal& out) {
