@@ -16,7 +16,7 @@ DenoiseFrame make_denoise_frame(int width, int height) {
 void add_classes(DenoiseFrame& frame) {
   const Plane plane(frame.width, frame.height);
   const Planes3 planes{plane, plane, plane};
-  const SampleClass empty{plane, planes, planes, planes, planes, planes};
+  const SampleClass empty{plane, planes, planes, planes, planes};
   frame.classes = {empty, empty};
 }
 

@@ -7,16 +7,11 @@
 
 namespace voxlume {
 
-/// Samples of a pixel that scattered alike at first (xu2024 section 5.1), of which a pixel has up to two
-/// classes. Means over the samples of the class; zero in an empty class.
-///
-/// Radiance of a sample = fx_diffuse * fl_diffuse + fx_specular * fl_specular + later (xu2024 eq. 8), where
-/// fx is how the first scattering scatters [1/sr, times pi: a white Lambert surface has cos_i] and fl the
-/// light that reaches it, shadows included, divided by its sampling density and by pi. The phase function
-/// belongs to the diffuse part; `later` is light of later scatterings and emission.
+/// Samples of a pixel that scattered alike at first, of which a pixel has up to two classes: means of their
+/// RadianceParts (film/film.h) over the samples of the class; zero in an empty class.
 struct SampleClass {
   Plane count;  ///< n_k; 0: the pixel has no such class
-  Planes3 fx_diffuse, fl_diffuse, fx_specular, fl_specular, later;
+  Planes3 fx_diffuse, fx_specular, fl, later;
 };
 
 /// Two luminances of one sample in every 3 x 3 pixels: the sample of the frame before, and the same sample

@@ -1,10 +1,37 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstddef>
+#include <cstdint>
+#include <new>
 #include <vector>
 
 namespace voxlume {
+
+/// Begins blocks at different places of a page. Filters read the same pixel of many planes; if all planes
+/// began alike, as large blocks do, those values would compete for the same few lines of the first cache.
+template <class T>
+struct SpreadAllocator {
+  using value_type = T;
+  static constexpr std::size_t kPage = 4096, kPlaces = 16;
+
+  SpreadAllocator() = default;
+  template <class U>
+  SpreadAllocator(const SpreadAllocator<U>&) noexcept {}
+
+  T* allocate(std::size_t count) {
+    static std::atomic<std::size_t> blocks{0};
+    const std::size_t place = blocks.fetch_add(5, std::memory_order_relaxed) % kPlaces;
+    auto* page = static_cast<std::byte*>(::operator new(count * sizeof(T) + kPage, std::align_val_t(kPage)));
+    return reinterpret_cast<T*>(page + place * (kPage / kPlaces));
+  }
+  void deallocate(T* block, std::size_t) noexcept {
+    const std::size_t place = reinterpret_cast<std::uintptr_t>(block) % kPage;
+    ::operator delete(reinterpret_cast<std::byte*>(block) - place, std::align_val_t(kPage));
+  }
+  friend bool operator==(SpreadAllocator, SpreadAllocator) { return true; }
+};
 
 /// One float for each pixel. Around the picture lies a border of zeros that can be read but is not written:
 /// filters take neighbours from it without asking where the picture ends, and weight them by a plane that is
@@ -44,7 +71,7 @@ class Plane {
   }
 
   int width_ = 0, height_ = 0, stride_ = 0;
-  std::vector<float> values_;
+  std::vector<float, SpreadAllocator<float>> values_;
 };
 
 /// Red, green and blue, or x, y and z.

@@ -39,6 +39,11 @@ HWY_INLINE F dot(F3 a, F3 b) { return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, 
 /// Of linear Rec. 709.
 HWY_INLINE F luminance(F3 c) { return dot(c, set({0.2126f, 0.7152f, 0.0722f})); }
 
+/// 1 / x, or 0 where x is too small to divide by.
+HWY_INLINE F inverse_or_zero(F x) {
+  return hn::IfThenElseZero(hn::Gt(x, hn::Set(kD, 1e-20f)), hn::Div(hn::Set(kD, 1.0f), x));
+}
+
 /// What lies at column x of row y and right of it; x and y may be in the border.
 HWY_INLINE F load(const Plane& plane, int x, int y) { return hn::LoadU(kD, plane.row(y) + x); }
 HWY_INLINE F3 load(const Planes3& planes, int x, int y) {

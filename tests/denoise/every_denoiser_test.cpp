@@ -48,14 +48,16 @@ TEST_P(EveryDenoiser, LeavesAConstantPictureAsItIs) {
 
 TEST_P(EveryDenoiser, TakesNoiseAwayFromOneFrameAndMoreFromSeveral) {
   const Planes3 exact = test_frame(kWidth, kHeight, two_surfaces).radiance;
-  const DenoiseFrame first = test_frame(kWidth, kHeight, two_surfaces, 0.7, 1);
-  const double noisy = difference(first.radiance, exact);
-  denoiser_->denoise(first, out_);
+  const DenoiseFrame last = test_frame(kWidth, kHeight, two_surfaces, 0.7, 1);
+  const double noisy = difference(last.radiance, exact);
+  denoiser_->denoise(last, out_);
   const double one = difference(out_.radiance, exact);
   EXPECT_LT(one, noisy / 2) << "from one frame";
+  denoiser_->forget();
   for (unsigned seed = 2; seed < 20; ++seed)
     denoiser_->denoise(test_frame(kWidth, kHeight, two_surfaces, 0.7, seed), out_);
-  EXPECT_LT(difference(out_.radiance, exact), one * 1.02) << "from twenty";
+  denoiser_->denoise(last, out_);
+  EXPECT_LT(difference(out_.radiance, exact), one * 1.02) << "from twenty, the same one last";
 }
 
 TEST_P(EveryDenoiser, DoesNotDependOnTheNumberOfThreads) {

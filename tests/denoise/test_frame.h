@@ -57,7 +57,7 @@ DenoiseFrame test_frame(int width, int height, const PixelFunction& pixel, doubl
         frame.albedo[c].at(x, y) = p.alpha > 0 ? p.albedo[c] : 0;
         if (!(p.alpha > 0)) continue;
         one.fx_diffuse[c].at(x, y) = p.albedo[c];
-        one.fl_diffuse[c].at(x, y) = p.radiance[c] * static_cast<float>(mean) / (p.alpha * p.albedo[c]);
+        one.fl[c].at(x, y) = p.radiance[c] * static_cast<float>(mean) / (p.alpha * p.albedo[c]);
       }
     }
   }
