@@ -24,7 +24,7 @@ constexpr float kWrlsLargestGain = 1000;
 /// Radiance above so many times the frame's brightness is cut.
 constexpr float kWrlsBrightest = 1 << 20;
 /// Matter that was further from where it is expected than so many times the frame's size is other matter.
-constexpr float kWrlsDepthTolerance = 0.2f;
+constexpr float kWrlsDepthTolerance = 0.05f;
 /// The spatial filter reaches so many pixels to each side.
 constexpr int kWrlsReach = 2;
 

@@ -1,6 +1,6 @@
 #include "base/vector_targets.h"
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "denoise/wrls_rows.cpp"
+#define HWY_TARGET_INCLUDE "denoise/wrls_temporal.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -20,12 +20,11 @@ constexpr Ints kInts;
 
 /// A share of the frame's brightness below which the spatial filter sees no contrast.
 constexpr float kDark = 0.05f;
-/// What a difference of 1 in alpha is to the spatial filter in units of logarithmic brightness.
-constexpr float kAlphaContrast = 2;
 /// Bounds of the spatial filter's sigma, a relative brightness.
 constexpr float kLeastSigma = 0.03f, kGreatestSigma = 0.35f;
-/// Standard deviation of the spatial filter [pixels].
-constexpr float kPixelSigma = 1.5f;
+/// A pixel that is brighter than kSpike times the brightest around it and than kDimSpike times the frame is a
+/// spike.
+constexpr float kSpike = 2, kDimSpike = 4;
 /// Share of a frame in the smoothed spread.
 constexpr float kSpreadShare = 0.1f;
 
@@ -49,13 +48,15 @@ HWY_INLINE F3 rgb_from_ycocg(F3 c) {
   return {hn::Add(rest, c.y), hn::Add(c.x, c.z), hn::Sub(rest, c.y)};
 }
 
-/// Where the pixels of a vector were in the frame before.
-struct Past {
+/// Places in a plane, one a lane.
+struct Places {
   I offset;              ///< from row 0, column 0
   std::ptrdiff_t first;  ///< of the first lane
   bool side_by_side;     ///< the others follow
-  hn::Mask<Floats> known;
 
+  HWY_INLINE explicit Places(I offsets) : offset(offsets), first(hn::GetLane(offsets)) {
+    side_by_side = hn::AllTrue(kInts, hn::Eq(offset, hn::Iota(kInts, static_cast<int>(first))));
+  }
   HWY_INLINE F operator()(const Plane& plane) const {
     const float* origin = plane.row(0);
     return side_by_side ? hn::LoadU(kD, origin + first) : hn::GatherIndex(kD, origin, offset);
@@ -65,25 +66,76 @@ struct Past {
   }
 };
 
-/// The nearest pixel to where the matter was, unless other matter or none was there.
+/// Where the pixels of a vector were in the frame before.
+struct Past {
+  Places nearest;
+  hn::Mask<Floats> known;  ///< that there was the same matter
+  bool between;            ///< some were between pixels, and take from four of them:
+  I left_top, to_right, to_below;
+  F right, below;  ///< the shares of the right and of the lower two
+};
+
+/// A coordinate's pixel and the share of the next one. Matter that has not moved but for rounding has not
+/// moved.
+HWY_INLINE void split(F point, int size, I& pixel, F& share) {
+  const F last = hn::Set(kD, static_cast<float>(size - 1)), zero = hn::Zero(kD);
+  const F from_centre = hn::Min(hn::Max(hn::Sub(point, hn::Set(kD, 0.5f)), zero), last);
+  const F rounded = hn::Round(from_centre);
+  const auto still = hn::Lt(hn::Abs(hn::Sub(from_centre, rounded)), hn::Set(kD, 1.0f / 64));
+  const F place = hn::IfThenElse(still, rounded, from_centre);
+  const F whole = hn::Floor(place);
+  pixel = hn::ConvertTo(kInts, whole);
+  share = hn::Sub(place, whole);
+}
+
 HWY_INLINE Past find_past(const WrlsUpdate& update, int x, int y, std::size_t lanes) {
   const int stride = update.before.depth_mm.stride();
-  const F px = load(update.moved.x, x, y), py = load(update.moved.y, x, y);
-  const auto seen = hn::And(hn::FirstN(kD, lanes), hn::Ge(px, hn::Zero(kD)));
+  const F px = load(update.moved.x, x, y), py = load(update.moved.y, x, y), zero = hn::Zero(kD);
+  const auto seen = hn::And(hn::FirstN(kD, lanes), hn::Ge(px, zero));
   const I own = hn::Iota(kInts, y * stride + x);
+  const auto offset = [&](I column, I row) HWY_ATTR {
+    const I there = hn::Add(hn::Mul(row, hn::Set(kInts, stride)), column);
+    return hn::IfThenElse(hn::RebindMask(kInts, seen), there, own);
+  };
   // Points in the picture are not negative: converting is rounding down.
-  const I there = hn::Add(hn::Mul(hn::ConvertTo(kInts, hn::IfThenElseZero(seen, py)), hn::Set(kInts, stride)),
-                          hn::ConvertTo(kInts, hn::IfThenElseZero(seen, px)));
-  Past past;
-  past.offset = hn::IfThenElse(hn::RebindMask(kInts, seen), there, own);
-  past.first = hn::GetLane(past.offset);
-  const I shift = hn::Set(kInts, static_cast<int>(past.first) - y * stride - x);
-  past.side_by_side = hn::AllTrue(kInts, hn::Eq(hn::Sub(past.offset, own), shift));
-  const F depth = past(update.before.depth_mm);
+  const Places nearest(offset(hn::ConvertTo(kInts, hn::IfThenElseZero(seen, px)),
+                              hn::ConvertTo(kInts, hn::IfThenElseZero(seen, py))));
+  const F depth = nearest(update.before.depth_mm);
   const F error = hn::Abs(hn::Sub(depth, load(update.moved.depth_mm, x, y)));
   const auto same = hn::Le(error, hn::Set(kD, kWrlsDepthTolerance * update.frame.size_mm));
-  past.known = hn::And(seen, hn::And(same, hn::Gt(depth, hn::Zero(kD))));
-  return past;
+  const auto known = hn::And(seen, hn::And(same, hn::Gt(depth, zero)));
+
+  I column, row;
+  F right, down;
+  split(px, update.frame.width, column, right);
+  split(py, update.frame.height, row, down);
+  const auto to_right = hn::Gt(right, zero), to_below = hn::Gt(down, zero);
+  return {.nearest = nearest,
+          .known = known,
+          .between = !hn::AllFalse(kD, hn::And(known, hn::Or(to_right, to_below))),
+          .left_top = offset(column, row),
+          .to_right = hn::IfThenElseZero(hn::RebindMask(kInts, to_right), hn::Set(kInts, 1)),
+          .to_below = hn::IfThenElseZero(hn::RebindMask(kInts, to_below), hn::Set(kInts, stride)),
+          .right = right,
+          .below = down};
+}
+
+/// The history of a feature, bilinear between pixels: what is a model's own is taken from the nearest, which
+/// for z would be seen as a texture that jumps.
+HWY_INLINE void history(const Past& past, const WrlsModels& before, F3& z, F& alpha) {
+  z = past.nearest(before.z);
+  alpha = past.nearest(before.z_alpha);
+  if (!past.between) return;
+  const Places a(past.left_top), b(hn::Add(past.left_top, past.to_right));
+  const Places c(hn::Add(a.offset, past.to_below)), d(hn::Add(b.offset, past.to_below));
+  const auto mix = [&](const Plane& plane) HWY_ATTR {
+    const F left_top = a(plane), left_bottom = c(plane);
+    const F top = hn::MulAdd(hn::Sub(b(plane), left_top), past.right, left_top);
+    const F bottom = hn::MulAdd(hn::Sub(d(plane), left_bottom), past.right, left_bottom);
+    return hn::MulAdd(hn::Sub(bottom, top), past.below, top);
+  };
+  z = {mix(before.z[0]), mix(before.z[1]), mix(before.z[2])};
+  alpha = mix(before.z_alpha);
 }
 
 /// The frame around a pixel, 3 x 3.
@@ -92,12 +144,13 @@ struct Neighbourhood {
   F3 lowest, highest;  ///< YCoCg
   F alpha, alpha_mean, alpha_lowest, alpha_highest;
   F luminance_square_mean, variance_mean;
+  F others;  ///< greatest luminance of the eight around
 };
 
 HWY_INLINE Neighbourhood look_around(const DenoiseFrame& frame, float brightest, int x, int y) {
   const F most = hn::Set(kD, brightest), ninth = hn::Set(kD, 1.0f / 9);
   Neighbourhood n;
-  const auto colour_at = [&](int column, int row) {
+  const auto colour_at = [&](int column, int row) HWY_ATTR {
     const F3 c = load(frame.radiance, column, row);
     return F3{hn::Min(c.x, most), hn::Min(c.y, most), hn::Min(c.z, most)};
   };
@@ -105,7 +158,7 @@ HWY_INLINE Neighbourhood look_around(const DenoiseFrame& frame, float brightest,
   n.alpha = n.alpha_lowest = n.alpha_highest = load(frame.alpha, x, y);
   n.lowest = n.highest = ycocg_from_rgb(n.colour);
   n.mean = zero3();
-  n.alpha_mean = n.luminance_square_mean = n.variance_mean = hn::Zero(kD);
+  n.alpha_mean = n.luminance_square_mean = n.variance_mean = n.others = hn::Zero(kD);
   const F width = hn::Set(kD, static_cast<float>(frame.width));
   for (int dx = -1; dx <= 1; ++dx) {
     const F column = hn::Iota(kD, static_cast<float>(x + dx));
@@ -124,11 +177,19 @@ HWY_INLINE Neighbourhood look_around(const DenoiseFrame& frame, float brightest,
       n.alpha_highest = hn::Max(n.alpha_highest, a);
       n.mean = add_scaled(n.mean, c, ninth);
       n.alpha_mean = hn::MulAdd(a, ninth, n.alpha_mean);
-      n.luminance_square_mean = hn::MulAdd(square(luminance(c)), ninth, n.luminance_square_mean);
+      const F light = luminance(c);
+      n.luminance_square_mean = hn::MulAdd(square(light), ninth, n.luminance_square_mean);
+      if (dx != 0 || row != y) n.others = hn::Max(n.others, hn::IfThenElseZero(inside, light));
       n.variance_mean = hn::MulAdd(variance, ninth, n.variance_mean);
     }
   }
   return n;
+}
+
+/// The pixel without what makes it a spike: it is brighter than any around it only so far, unless all is dim.
+HWY_INLINE F3 without_spike(const Neighbourhood& n, float scale_of_frame) {
+  const F limit = hn::Max(hn::Mul(n.others, hn::Set(kD, kSpike)), hn::Set(kD, kDimSpike * scale_of_frame));
+  return scale(n.colour, hn::Div(limit, hn::Max(limit, luminance(n.colour))));
 }
 
 struct Feature {
@@ -139,21 +200,21 @@ struct Feature {
 /// Of a pixel without history: the mean around it, and as much of its own difference from the mean as is not
 /// noise (a Wiener filter with the variances of 3 x 3 pixels). All of it counts as noise where one sample a
 /// pixel does not tell.
-HWY_INLINE Feature first_feature(const Neighbourhood& n, F samples) {
+HWY_INLINE Feature first_feature(const Neighbourhood& n, F3 colour, F samples) {
   const F zero = hn::Zero(kD), one = hn::Set(kD, 1.0f);
   const F spread = hn::Sub(n.luminance_square_mean, square(luminance(n.mean)));
   const auto tells = hn::And(hn::Gt(spread, zero), hn::Gt(samples, one));
   const F detail = hn::IfThenElseZero(tells, hn::Max(zero, hn::Sub(one, hn::Div(n.variance_mean, spread))));
-  return {add_scaled(n.mean, sub(n.colour, n.mean), detail),
+  return {add_scaled(n.mean, sub(colour, n.mean), detail),
           hn::MulAdd(hn::Sub(n.alpha, n.alpha_mean), detail, n.alpha_mean)};
 }
 
 /// iglesias2020 eq. 12, with the history held between the least and greatest of 3 x 3 pixels in YCoCg.
-HWY_INLINE Feature next_feature(const Neighbourhood& n, F3 z_before, F alpha_before) {
+HWY_INLINE Feature next_feature(const Neighbourhood& n, F3 colour, F3 z_before, F alpha_before) {
   const F share = hn::Set(kD, kWrlsHistory), rest = hn::Set(kD, 1 - kWrlsHistory);
   const F3 z = rgb_from_ycocg(clamp(ycocg_from_rgb(z_before), n.lowest, n.highest));
   const F alpha = hn::Min(hn::Max(alpha_before, n.alpha_lowest), n.alpha_highest);
-  const F3 mixed = add_scaled(scale(z, share), n.colour, rest);
+  const F3 mixed = add_scaled(scale(z, share), colour, rest);
   const F zero = hn::Zero(kD);
   // The box in YCoCg has corners that are no light.
   return {{hn::Max(mixed.x, zero), hn::Max(mixed.y, zero), hn::Max(mixed.z, zero)},
@@ -198,13 +259,13 @@ HWY_INLINE void update_model(LinearModel<d>& model, const WrlsUpdate& update, F3
   const F limit = d == 1
                       ? hn::Mul(unit, hn::Set(kD, kWrlsFirstPWithoutFeature))
                       : hn::Mul(unit, hn::Set(kD, kWrlsFirstP / (k == 0 ? 1 : update.scale * update.scale)));
-  const auto is = [&](int channel) { return hn::Set(kD, k == channel ? 1.0f : 0.0f); };
+  const auto is = [&](int channel) HWY_ATTR { return hn::Set(kD, k == channel ? 1.0f : 0.0f); };
   // Without the feature nothing is expected: the mean stays what it is.
   const F3 expected = d == 1 ? F3{model.beta[0], model.beta[1], model.beta[2]} : F3{is(1), is(2), is(3)};
   model.limit_ignorance(k, limit, expected);
 }
 
-/// What the spatial filter compares.
+/// What the spatial filter compares, and how sharply.
 HWY_INLINE void store_guide(const WrlsUpdate& update, F3 z, F spread, int x, int y, std::size_t lanes) {
   const F3 t = ycocg_from_rgb(z);
   const F brightness = hn::Add(t.x, hn::Set(kD, kDark * update.scale));
@@ -224,24 +285,28 @@ void update_row(const WrlsUpdate& update, int y) {
   for_row(update.frame.width, [&](int x, std::size_t lanes) HWY_ATTR {
     const Past past = find_past(update, x, y, lanes);
     const Neighbourhood n = look_around(update.frame, kWrlsBrightest * update.scale, x, y);
-    const Feature first = first_feature(n, load(update.frame.samples, x, y));
-    const Feature next = next_feature(n, past(before.z), past(before.z_alpha));
+    const F3 colour = without_spike(n, update.scale);
+    const Feature first = first_feature(n, colour, load(update.frame.samples, x, y));
+    F3 z_before;
+    F alpha_before;
+    history(past, before, z_before, alpha_before);
+    const Feature next = next_feature(n, colour, z_before, alpha_before);
     const F3 z = select(past.known, next.z, first.z);
     store(z, after.z, x, y, lanes);
     store(hn::IfThenElse(past.known, next.alpha, first.alpha), after.z_alpha, x, y, lanes);
 
     const F distance = squared_distance(n.colour, z, update.scale);
     const F one = hn::Set(kD, 1.0f), bounded = hn::Min(distance, one);
-    const F spread_before = hn::IfThenElse(past.known, past(before.spread), bounded);
+    const F spread_before = hn::IfThenElse(past.known, past.nearest(before.spread), bounded);
     const F spread = hn::MulAdd(hn::Sub(bounded, spread_before), hn::Set(kD, kSpreadShare), spread_before);
     store(spread, after.spread, x, y, lanes);
     store_guide(update, z, spread, x, y, lanes);
 
     LinearModel<d> model = first_model<d>(z, update.scale);
     for (int i = 0; i < LinearModel<d>::kTriangle; ++i)
-      model.p[i] = hn::IfThenElse(past.known, past(before.p[i]), model.p[i]);
+      model.p[i] = hn::IfThenElse(past.known, past.nearest(before.p[i]), model.p[i]);
     for (int i = 0; i < 3 * d; ++i)
-      model.beta[i] = hn::IfThenElse(past.known, past(before.beta[i]), model.beta[i]);
+      model.beta[i] = hn::IfThenElse(past.known, past.nearest(before.beta[i]), model.beta[i]);
     constexpr float kExponent = -1 / (kWrlsBandwidth * kWrlsBandwidth);
     const F weight = update.weighted ? hn::Exp(kD, hn::Mul(distance, hn::Set(kD, kExponent))) : one;
     update_model(model, update, n.colour, z, weight);
@@ -259,68 +324,6 @@ void update_models_row(const WrlsUpdate& update, int y) {
     update_row<1>(update, y);
   else
     update_row<4>(update, y);
-}
-
-/// Means over the pixels around, weighted by how alike they are.
-template <int d>
-struct Blend {
-  F weight, alpha;
-  F3 z;
-  F beta[3 * d];
-};
-
-template <int d>
-HWY_INLINE void add_tap(const WrlsModels& models, F weight, int x, int y, Blend<d>& sum) {
-  sum.weight = hn::Add(sum.weight, weight);
-  sum.alpha = hn::MulAdd(weight, load(models.z_alpha, x, y), sum.alpha);
-  if constexpr (d == 4) sum.z = add_scaled(sum.z, load(models.z, x, y), weight);
-  for (int i = 0; i < 3 * d; ++i) sum.beta[i] = hn::MulAdd(weight, load(models.beta[i], x, y), sum.beta[i]);
-}
-
-template <int d>
-void predict_row_of(const WrlsModels& models, const WrlsGuide& guide, int y, DenoisedFrame& out) {
-  const F zero = hn::Zero(kD), one = hn::Set(kD, 1.0f);
-  const F alpha_scale = hn::Set(kD, kAlphaContrast * kAlphaContrast);
-  const int first = std::max(y - kWrlsReach, 0), last = std::min(y + kWrlsReach, out.alpha.height() - 1);
-  for_row(out.alpha.width(), [&](int x, std::size_t lanes) HWY_ATTR {
-    const F3 colour = load(guide.colour, x, y);
-    const F alpha = load(models.z_alpha, x, y), sharpness = load(guide.sharpness, x, y);
-    Blend<d> sum;
-    sum.weight = sum.alpha = zero;
-    sum.z = {zero, zero, zero};
-    for (F& coefficient : sum.beta) coefficient = zero;
-    for (int row = first; row <= last; ++row) {
-      for (int column = x - kWrlsReach; column <= x + kWrlsReach; ++column) {
-        const int dx = column - x, dy = row - y;
-        const F3 difference = sub(load(guide.colour, column, row), colour);
-        const F step = hn::Sub(load(models.z_alpha, column, row), alpha);
-        const F distance = hn::MulAdd(hn::Mul(alpha_scale, step), step, dot(difference, difference));
-        const F near =
-            hn::Set(kD, -0.5f * static_cast<float>(dx * dx + dy * dy) / (kPixelSigma * kPixelSigma));
-        const F alike = hn::Exp(kD, hn::MulAdd(distance, sharpness, near));
-        add_tap(models, hn::Mul(alike, load(guide.inside, column, row)), column, row, sum);
-      }
-    }
-    const F inverse = hn::Div(one, sum.weight);
-    F3 prediction = scale(F3{sum.beta[0], sum.beta[1], sum.beta[2]}, inverse);
-    if constexpr (d == 4) {
-      const F3 z = scale(sum.z, square(inverse));
-      const auto beta = [&](int k) { return F3{sum.beta[3 * k], sum.beta[3 * k + 1], sum.beta[3 * k + 2]}; };
-      prediction = add_scaled(prediction, beta(1), z.x);
-      prediction = add_scaled(prediction, beta(2), z.y);
-      prediction = add_scaled(prediction, beta(3), z.z);
-    }
-    store({hn::Max(prediction.x, zero), hn::Max(prediction.y, zero), hn::Max(prediction.z, zero)},
-          out.radiance, x, y, lanes);
-    store(hn::Min(hn::Max(hn::Mul(sum.alpha, inverse), zero), one), out.alpha, x, y, lanes);
-  });
-}
-
-void predict_row(const WrlsModels& models, const WrlsGuide& guide, int y, DenoisedFrame& out) {
-  if (models.p.size() == 1)
-    predict_row_of<1>(models, guide, y, out);
-  else
-    predict_row_of<4>(models, guide, y, out);
 }
 
 void measure_brightness_row(const DenoiseFrame& frame, int y, WrlsBrightness& row) {
@@ -345,14 +348,10 @@ HWY_AFTER_NAMESPACE();
 namespace voxlume {
 
 HWY_EXPORT(update_models_row);
-HWY_EXPORT(predict_row);
 HWY_EXPORT(measure_brightness_row);
 
 void update_models_row(const WrlsUpdate& update, int y) {
   HWY_DYNAMIC_DISPATCH(update_models_row)(update, y);
-}
-void predict_row(const WrlsModels& models, const WrlsGuide& guide, int y, DenoisedFrame& out) {
-  HWY_DYNAMIC_DISPATCH(predict_row)(models, guide, y, out);
 }
 void measure_brightness_row(const DenoiseFrame& frame, int y, WrlsBrightness& row) {
   HWY_DYNAMIC_DISPATCH(measure_brightness_row)(frame, y, row);
