@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <numbers>
+#include <sstream>
 
 #include "scene/scene_file.h"
 #include "voxlume/error.h"
@@ -174,6 +176,23 @@ TEST(Animation, FilesKeepIt) {
   EXPECT_EQ(parse_scene(write_scene(s), "again"), s);
   SceneDescription empty = scene_with("{}");
   EXPECT_EQ(parse_scene(write_scene(empty), "again"), empty);
+}
+
+TEST(Animation, ThePagesExamplesAreScenes) {
+  std::ifstream file(VOXLUME_SOURCE_DIR "/docs/animation.md");
+  std::stringstream stream;
+  stream << file.rdbuf();
+  const std::string page = stream.str();
+  int examples = 0;
+  for (std::size_t at = 0; (at = page.find("```json\n", at)) != std::string::npos; ++examples) {
+    at += 8;
+    const std::size_t end = page.find("```", at);
+    const SceneDescription s = parse_scene(page.substr(at, end - at), "example " + std::to_string(examples));
+    const int last = frame_count(*s.animation) - 1;
+    EXPECT_NE(scene_of_frame(s, last / 3).render, scene_of_frame(s, last).render);
+    at = end + 3;
+  }
+  EXPECT_EQ(examples, 8);
 }
 
 struct Refused {
