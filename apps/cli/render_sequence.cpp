@@ -22,7 +22,16 @@ std::string frames_text(const FrameRange& range) {
                             : fmt::format("frames {} to {}", range.first, range.last);
 }
 
-/// Renders what is missing of `range` to numbered files.
+/// The folder for a movie's frames. Throws Error naming it.
+void make_folder(const fs::path& folder) {
+  std::error_code failed;
+  fs::create_directory(folder, failed);
+  if (!fs::is_directory(folder, failed))
+    throw Error(ErrorCode::kBadParameter, "-o",
+                "the folder " + quote_text(folder.string()) + " for the movie's frames cannot be made");
+}
+
+/// Renders what is missing of `range` to numbered files, in a folder that is made for them if need be.
 RenderStatus render_missing(RenderRun& run, const FramePattern& files, const FrameRange& range) {
   std::uint64_t nonfinite_samples = 0;
   nlohmann::json statistics = nlohmann::json::array();
@@ -40,6 +49,7 @@ RenderStatus render_missing(RenderRun& run, const FramePattern& files, const Fra
   };
   run.progress.show("checking every frame's scene");
   const std::vector<int> frames = frames_to_render(*run.session, options);
+  if (output_kind(run.request.output) == OutputKind::kMovie) make_folder(files.path(0).parent_path());
   run.interrupt.defer();
   const RenderStatus status = render_sequence(*run.session, frames, options);
   run.progress.clear();
@@ -76,7 +86,6 @@ int render_movie(RenderRun& run) {
   const FrameRange range = requested_frames(request, scene);
   const FramePattern files = movie_frames(request.output);
   const fs::path folder = files.path(0).parent_path();
-  fs::create_directory(folder);
   if (render_missing(run, files, range) == RenderStatus::kCancelled) return report_interrupted();
   run.progress.show(fmt::format("encoding {} of {}", request.output, frames_text(range)));
   try {

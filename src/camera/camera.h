@@ -34,8 +34,8 @@ struct PixelPosition {
 };
 
 /// Frames the sphere (`center_mm`, `radius_mm` > 0) for an image of width x height pixels (>= 1), or one of
-/// the description's fit_radius_mm. Without eye_mm a perspective eye is at radius / (sin(half the angle of the
-/// smaller image side) * zoom) from the target; an orthographic one is outside the sphere given and zoom
+/// the description's fit_radius_mm. Without eye_mm a perspective eye is at radius / (sin(half the angle of
+/// the smaller image side) * zoom) from the target; an orthographic one is outside the sphere given and zoom
 /// divides the view's height. Roll turns
 /// the camera clockwise as seen from behind it, so that the picture turns counter-clockwise. Throws
 /// kBadParameter at "/camera/NAME".

@@ -14,7 +14,8 @@ void check_animation(const AnimationDescription& animation, const std::string& w
 /// there are more than a million.
 int frame_count(const AnimationDescription& animation);
 
-/// The scene at a time [s], without its animation. A pure function, in double precision. Lists are as long as
+/// The scene at a time [s], without its animation. A pure function, in double precision. `animated` is valid
+/// (validate_scene). Lists are as long as
 /// in `animated`, so lights and transfer points that tracks name by index must be there: resolve the scene
 /// first (then what nothing moves stays as it is, the camera's framing above all), and again afterwards if a
 /// track chooses presets. Validates what comes out. Throws Error kBadParameter for values that do not go
