@@ -1,10 +1,13 @@
 // What is chosen when the user says nothing: presets, lights, camera target.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <filesystem>
 #include <limits>
 
 #include "grid/phantom.h"
+#include "image_io/image_io.h"
 #include "integrator/path_tracer.h"
 #include "scene/compile.h"
 #include "scene/presets.h"
@@ -230,6 +233,33 @@ TEST(Compile, AnUpdatedSceneIsTheSceneCompiledAnew) {
   EXPECT_THROW(updated.update(wrong), Error);
   EXPECT_EQ(updated.view().camera.eye_mm.x, eye);
   EXPECT_EQ(updated.description(), scene);
+}
+
+TEST(Compile, AnUpdateKeepsTheTablesOfTheEnvironmentsPicture) {
+  const auto path =
+      std::filesystem::temp_directory_path() / ("voxlume-sky-" + std::to_string(::getpid()) + ".exr");
+  Image sky(8, 4);
+  for (std::size_t i = 0; i < sky.rgba.size(); ++i) sky.rgba[i] = static_cast<float>(i % 7) * 0.3f;
+  write_exr(sky, path);
+  const Volume phantom = make_head_phantom();
+  const VolumeStatistics statistics = compute_statistics(make_grid_view(phantom));
+  SceneDescription scene = resolve({}, phantom, statistics);
+  scene.image.width = scene.image.height = 24;
+  scene.environment->image = path.string();
+  CompiledScene updated(scene, phantom, statistics);
+  const Vec3f* const texels = updated.view().lights.environment.texels;
+  const auto change = [&](auto edit) {
+    edit(scene);
+    updated.update(scene);
+    expect_same_view(updated.view(), CompiledScene(scene, phantom, statistics).view());
+  };
+  change([](SceneDescription& s) { s.environment->rotation_deg = 70; });
+  change([](SceneDescription& s) { s.environment->attached_to = Attachment::kCamera; });
+  change([](SceneDescription& s) { s.camera.elevation_deg = 60; });
+  EXPECT_EQ(updated.view().lights.environment.texels, texels);
+  change([](SceneDescription& s) { s.environment->intensity = 0.1; });
+  change([](SceneDescription& s) { s.environment->image.clear(); });
+  std::filesystem::remove(path);
 }
 
 TEST(Resolve, TheFramingStaysWhileAClipBoxMoves) {
