@@ -1,7 +1,9 @@
 #include "integrator/camera_path.h"
 
 #include <limits>
+#include <numbers>
 
+#include "integrator/background.h"
 #include "integrator/scatter_point.h"
 
 namespace voxlume {
@@ -47,6 +49,7 @@ CameraPath::Wait CameraPath::begin(const SceneView& scene, const PrimaryRay& pri
   depth_ = 0;
   first_unshadowed_ = 0;
   out_ = {};
+  if (scene.keeps_parts) first_light_ = {};
   ++counters.paths;
   return primary.enters ? Wait::kFlight : end_flight(scene, {}, counters);
 }
@@ -81,7 +84,11 @@ CameraPath::Wait CameraPath::end() noexcept {
 
 CameraPath::Wait CameraPath::end_flight(const SceneView& scene, const Collision& collision,
                                         TraceCounters& counters) noexcept {
-  if (depth_ > 0) radiance_ += met_emitters(scene, collision);
+  if (depth_ > 0) {
+    const Vec3f met = met_emitters(scene, collision);
+    radiance_ += throughput_ * met;
+    if (scene.keeps_parts && depth_ == 1) add_first(met * first_light_.weight);
+  }
   if (!collision.real) {
     if (depth_ == 0) radiance_ = background(scene);
     return end();
@@ -98,6 +105,8 @@ CameraPath::Wait CameraPath::end_flight(const SceneView& scene, const Collision&
     out_.depth_mm = collision.t_mm;
     out_.albedo = point_.albedo;
     out_.normal = point_.normal * point_.p_brdf;
+    first_light_.dense =
+        scene.keeps_parts && classify_mu_t(scene.medium.transfer, collision.value) > scene.dense_mu_t;
   }
   if (scattered_out(scene)) return end();
 
@@ -123,30 +132,53 @@ Vec3f CameraPath::met_emitters(const SceneView& scene, const Collision& collisio
   return met;
 }
 
-/// What a light met by a sampled direction adds, beside what light samples find of it.
+/// What a light met by a sampled direction adds to the path's throughput, beside what light samples find of
+/// it.
 Vec3f CameraPath::weighted(const SceneView& scene, const LightHit& hit) const noexcept {
   const float weight = scene.light_sampling == LightSampling::kDirection
                            ? 1.0f
                            : power_heuristic(direction_pdf_, hit.pdf * hit_samples_);
-  return throughput_ * hit.radiance * weight;
+  return hit.radiance * weight;
+}
+
+/// Adds light that arrived at the first scattering from the direction under way.
+void CameraPath::add_first(Vec3f light) noexcept {
+  first_light_.fl += light;
+  first_light_.diffuse += (first_light_.now.diffuse + first_light_.now.phase) * light;
+  first_light_.specular += first_light_.now.specular * light;
+}
+
+/// Begins a direction at the first scattering, whose light counts `weight` times.
+void CameraPath::look_first(const ScatterParts& scattered, float weight) noexcept {
+  first_light_.now = scattered;
+  first_light_.weight = weight;
+  first_light_.all_diffuse += scattered.diffuse + scattered.phase;
+  first_light_.all_specular += scattered.specular;
+  ++first_light_.directions;
+}
+
+RadianceParts CameraPath::parts() const noexcept {
+  constexpr float kPi = std::numbers::pi_v<float>;
+  RadianceParts parts;
+  if (!(out_.alpha > 0)) return parts;
+  const FirstLight& first = first_light_;
+  const float looked = static_cast<float>(std::max(first.directions, 1));
+  for (int c = 0; c < 3; ++c) {
+    const bool lit = first.fl[c] > 0;
+    parts.fx_diffuse[c] = kPi * (lit ? first.diffuse[c] / first.fl[c] : first.all_diffuse[c] / looked);
+    parts.fx_specular[c] = kPi * (lit ? first.specular[c] / first.fl[c] : first.all_specular[c] / looked);
+  }
+  parts.fl = first.fl * (1 / kPi);
+  parts.later = max(out_.radiance - first.diffuse - first.specular, Vec3f(0));
+  parts.dense = first.dense;
+  return parts;
 }
 
 /// What a camera ray that meets nothing sees.
 Vec3f CameraPath::background(const SceneView& scene) noexcept {
-  switch (scene.background) {
-    case BackgroundKind::kTransparent:
-      return Vec3f(0);
-    case BackgroundKind::kColor:
-      return scene.background_color;
-    case BackgroundKind::kEnvironment:
-      break;
-  }
-  Vec3f direction = direction_world_;
-  if (scene.camera.background_versine > 0) {
-    const float u0 = rng_.next(), u1 = rng_.next();
-    direction = background_direction(scene.camera, px_, py_, u0, u1);
-  }
-  return environment_hit(scene.lights, direction).radiance;
+  const bool draws = blurs_background(scene);
+  const float u0 = draws ? rng_.next() : 0.0f, u1 = draws ? rng_.next() : 0.0f;
+  return background_radiance(scene, px_, py_, direction_world_, u0, u1);
 }
 
 /// Next-event estimation: light from sampled emitters, scattered back along the path.
@@ -164,20 +196,27 @@ CameraPath::Wait CameraPath::next_light_sample(const SceneView& scene, TraceCoun
     const auto [u0, u1] = draw(last ? first_.light : UnitPair{-1, -1});
     const LightSample light = sample_light(scene.lights, p_world_, (stratum + u_pick_) / count, u0, u1);
     if (!(light.pdf > 0)) continue;
-    const ScatterValue scattered = eval_scatter(point_, choice_, -direction_world_, light.wi);
-    if (!(max_component(scattered.value * light.radiance) > 0)) continue;
+    const ScatterParts scattered = eval_scatter_parts(point_, choice_, -direction_world_, light.wi);
+    const Vec3f value = scattered.diffuse + scattered.specular + scattered.phase;
+    const bool first = scene.keeps_parts && depth_ == 0;
+    if (first) look_first(scattered, 0);
+    if (!(max_component(value * light.radiance) > 0)) continue;
 
     const float pdf = light.pdf * count;
     const float weight = light.delta || scene.light_sampling == LightSampling::kLight
                              ? 1.0f
                              : power_heuristic(pdf, scattered.pdf * flight_share(scene));
-    unshadowed_ = throughput_ * scattered.value * light.radiance * (weight / pdf);
-    if (!casts_shadow_ray(scene)) continue;
+    unshadowed_ = throughput_ * value * light.radiance * (weight / pdf);
+    const float boost = shadow_ray_boost(scene);
+    if (!(boost > 0)) continue;
+    unshadowed_ *= boost;
+    if (first) first_light_.arriving = light.radiance * (weight / pdf * boost);
     ++counters.shadow_rays;
     ray_ = visible_part(scene, p_world_, light.wi, light.distance_mm, !scene.clip_blocks_light);
     if (last && depth_ == 0) ray_.u_depth = first_.u_shadow_depth;
     if (enters()) return Wait::kTransmittance;
     radiance_ += unshadowed_;
+    if (first) add_first(first_light_.arriving);
   }
   return scatter(scene, counters);
 }
@@ -185,6 +224,8 @@ CameraPath::Wait CameraPath::next_light_sample(const SceneView& scene, TraceCoun
 CameraPath::Wait CameraPath::end_shadow_ray(const SceneView& scene, float transmittance,
                                             TraceCounters& counters) noexcept {
   radiance_ += unshadowed_ * transmittance;
+  const bool of_first = depth_ == 0 || (depth_ == 1 && scattered_out(scene));
+  if (scene.keeps_parts && of_first) add_first(first_light_.arriving * transmittance);
   return scattered_out(scene) ? end() : next_light_sample(scene, counters);
 }
 
@@ -196,17 +237,16 @@ float CameraPath::flight_share(const SceneView& scene) const noexcept {
   return last && !needed ? kLastFlightShare : 1.0f;
 }
 
-/// Russian roulette for shadow rays, in proportion to what they can add. The measure is the path's own first
-/// one, so that nothing depends on how bright the lights are.
-bool CameraPath::casts_shadow_ray(const SceneView& scene) noexcept {
-  if (!(scene.shadow_roulette > 0)) return true;
+/// Russian roulette for shadow rays, in proportion to what they can add: what a ray that is cast counts for,
+/// 0 for one that is not. The measure is the path's own first one, so that nothing depends on how bright the
+/// lights are.
+float CameraPath::shadow_ray_boost(const SceneView& scene) noexcept {
+  if (!(scene.shadow_roulette > 0)) return 1;
   const float size = max_component(unshadowed_);
   if (!(first_unshadowed_ > 0)) first_unshadowed_ = size;
   const float threshold = scene.shadow_roulette * first_unshadowed_;
-  if (!(size < threshold)) return true;
-  if (rng_.next() * threshold >= size) return false;
-  unshadowed_ *= threshold / size;
-  return true;
+  if (!(size < threshold)) return 1;
+  return rng_.next() * threshold < size ? threshold / size : 0.0f;
 }
 
 /// Turns the path at a scattering, unless it is absorbed or nothing can come of it.
@@ -220,6 +260,8 @@ CameraPath::Wait CameraPath::scatter(const SceneView& scene, TraceCounters& coun
   const auto [u0, u1] = draw(first_.direction);
   const ScatterSample sample = sample_scatter(point_, choice_, -direction_world_, u_lobe, u0, u1);
   if (!(sample.pdf > 0)) return end();
+  if (scene.keeps_parts && depth_ == 0)
+    look_first(eval_scatter_parts(point_, choice_, -direction_world_, sample.wi), 1 / (sample.pdf * share));
   throughput_ *= sample.value / (sample.pdf * share);
   origin_world_ = p_world_;
   direction_world_ = sample.wi;
@@ -237,7 +279,9 @@ CameraPath::Wait CameraPath::reach_lights(const SceneView& scene, TraceCounters&
   visit_rect_hits(scene.lights, origin_world_, direction_world_, kInfinity,
                   [&](const LightHit&) { meets_rect = true; });
   if (meets_rect) return fly(scene, counters);
-  unshadowed_ = weighted(scene, environment_hit(scene.lights, direction_world_));
+  const Vec3f met = weighted(scene, environment_hit(scene.lights, direction_world_));
+  unshadowed_ = throughput_ * met;
+  first_light_.arriving = met * first_light_.weight;
   if (!(max_component(unshadowed_) > 0)) return end();
   ray_ = scattered_ray(scene);
   return enters() ? Wait::kTransmittance : end_shadow_ray(scene, 1, counters);

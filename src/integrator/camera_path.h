@@ -33,6 +33,8 @@ class CameraPath {
   Rng& rng() noexcept { return rng_; }
   /// The result, once nothing is waited for.
   const PixelSample& sample() const noexcept { return out_; }
+  /// What its radiance is made of; only if the scene keeps parts.
+  RadianceParts parts() const noexcept;
 
  private:
   float draw(float first) noexcept;
@@ -48,6 +50,8 @@ class CameraPath {
   Vec3f weighted(const SceneView& scene, const LightHit& hit) const noexcept;
   Vec3f met_emitters(const SceneView& scene, const Collision& collision) const noexcept;
   Vec3f background(const SceneView& scene) noexcept;
+  void add_first(Vec3f light) noexcept;
+  void look_first(const ScatterParts& scattered, float weight) noexcept;
   Wait sample_direct_light(const SceneView& scene, TraceCounters& counters) noexcept;
   Wait next_light_sample(const SceneView& scene, TraceCounters& counters) noexcept;
   int light_samples(const SceneView& scene) const noexcept { return depth_ == 0 ? scene.light_samples : 1; }
@@ -55,7 +59,7 @@ class CameraPath {
   Wait scatter(const SceneView& scene, TraceCounters& counters) noexcept;
   Wait reach_lights(const SceneView& scene, TraceCounters& counters) noexcept;
   bool survives() noexcept;
-  bool casts_shadow_ray(const SceneView& scene) noexcept;
+  float shadow_ray_boost(const SceneView& scene) noexcept;
 
   Rng rng_;
   TrackRay ray_;
@@ -76,6 +80,17 @@ class CameraPath {
   float first_unshadowed_ = 0;  ///< of the path's first shadow ray; 0 before that
   Vec3f radiance_;
   PixelSample out_;
+
+  /// Light that reached the first scattering, for RadianceParts.
+  struct FirstLight {
+    Vec3f fl, diffuse, specular;      ///< sums of E_k and h_k E_k over the techniques (xu2024 eq. 7)
+    Vec3f all_diffuse, all_specular;  ///< sums of h_k over the directions looked at
+    int directions;                   ///< how many those are
+    ScatterParts now;                 ///< h_k of the direction under way
+    float weight;                     ///< of light met there, where a path follows it
+    Vec3f arriving;                   ///< E_k of the shadow ray under way, without its transmittance
+    bool dense;
+  } first_light_{};
 };
 
 }  // namespace voxlume

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "accel/accelerator.h"
+#include "grid/value_range.h"
 #include "grid/volume_statistics.h"
 #include "integrator/scene_view.h"
 #include "light/compile_lights.h"
@@ -61,6 +62,7 @@ class CompiledScene {
   SceneDescription description_;
   Volume volume_;
   Double3 origin_mm_;  ///< the volume's centre
+  ValueRange values_;  ///< of the whole volume
   float gradient_p999_;
   std::optional<Volume> label_volume_;
   std::optional<LabelTable> label_table_;

@@ -190,6 +190,7 @@ void expect_same_view(const SceneView& a, const SceneView& b) {
   EXPECT_EQ(a.lights.environment.axis_x.y, b.lights.environment.axis_x.y);
   EXPECT_EQ(a.clip_world.lower.x, b.clip_world.lower.x);
   EXPECT_EQ(a.scattering.g, b.scattering.g);
+  EXPECT_EQ(a.dense_mu_t, b.dense_mu_t);
   EXPECT_EQ(a.frame, b.frame);
   EXPECT_EQ(a.medium.accelerator.kind, b.medium.accelerator.kind);
   Film of_a(24, 24, {}), of_b(24, 24, {});
