@@ -147,7 +147,6 @@ TEST_F(CliRefuses, WhatIsNotBuiltYetByName) {
       flags({"--denoise", "wrls"}, "error: --denoise wrls is not built yet; available: none\n"),
       flags({"--denoise", "decoupled"}, "--denoise decoupled is not built yet; available: none"),
       flags({"--denoise", "svgf"}, "--denoise svgf is not built yet; available: none"),
-      flags({"--turntable", "36"}, "--turntable is not built yet"),
       flags({"--important", "100:200"}, "--important is not built yet"),
       flags({"--visibility", "1,1,1,1"}, "--visibility is not built yet"),
       flags({"--visibility-lights", "first"}, "--visibility-lights first is not built yet; available: off"),
