@@ -1,12 +1,17 @@
 #include "sequences.h"
 
+#include <chrono>
 #include <cmath>
 #include <numbers>
 
 #include "base/parallel.h"
 #include "integrator/path_tracer.h"
+#include "render/denoise_frame.h"
+#include "render/film_image.h"
 #include "scene/open_volume.h"
+#include "scene/presets.h"
 #include "scene/resolve.h"
+#include "voxlume/error.h"
 
 namespace voxlume::study {
 namespace {
@@ -19,13 +24,13 @@ Vec3d center(const Volume& volume) {
   return world_from_index(volume).point(middle);
 }
 
-float radius_mm(const Volume& volume) {
+double radius_mm(const Volume& volume) {
   double squares = 0;
   for (int a = 0; a < 3; ++a) {
     const double edge = volume.spacing_mm[a] * static_cast<double>(volume.size[a]);
     squares += edge * edge;
   }
-  return static_cast<float>(0.5 * std::sqrt(squares));
+  return 0.5 * std::sqrt(squares);
 }
 
 /// On a circle around the volume's head-foot axis; 0 is in front of the face.
@@ -38,12 +43,19 @@ Double3 on_circle(const Dataset& data, double angle_deg, double distance, double
 
 void orbit(SceneDescription& scene, const Dataset&, double t) { scene.camera.azimuth_deg += 120 * t; }
 
-void rotate_light(SceneDescription& scene, const Dataset& data, double t) {
+/// The area light on its circle.
+void put_light(SceneDescription& scene, const Dataset& data, double angle_deg) {
   LightDescription& light = (*scene.lights)[0];
   const Vec3d c = center(data.volume);
   light.attached_to = Attachment::kWorld;
-  light.position_mm = on_circle(data, -40 + 360 * t, 2.6, 1.2);
+  light.position_mm = on_circle(data, angle_deg, 2.6, 1.2);
   light.target_mm = Double3{c.x, c.y, c.z};
+}
+
+constexpr double kLightAngle = -40;
+
+void rotate_light(SceneDescription& scene, const Dataset& data, double t) {
+  put_light(scene, data, kLightAngle + 360 * t);
 }
 
 void move_point(SceneDescription& scene, const Dataset& data, double t) {
@@ -59,40 +71,118 @@ void move_point(SceneDescription& scene, const Dataset& data, double t) {
   scene.lights = {light};
 }
 
-/// Matter of low values fades to half, then is gone at once, and comes back slowly.
-void edit_transfer(SceneDescription& scene, const Dataset&, double t) {
+/// Soft matter fades to half, is gone at once in the middle, and comes back slowly.
+void edit_transfer(SceneDescription& scene, const Dataset& data, double t) {
   const double soft = t < 0.5 ? 1 - t : 2 * (t - 0.5);
   std::vector<TransferPoint>& points = scene.transfer.points;
+  points = data.edited;
   const double lower = points.front().value, upper = points.back().value;
   for (TransferPoint& p : points) {
-    const double above = (p.value - lower) / (upper - lower);
-    const double factor = above > 0.55 ? 1 : soft;
-    if (p.opacity) *p.opacity *= factor;
-    if (p.mu_t_per_mm) *p.mu_t_per_mm *= factor;
+    if ((p.value - lower) / (upper - lower) > data.soft_share) continue;
+    if (p.opacity) *p.opacity *= soft;
+    if (p.mu_t_per_mm) *p.mu_t_per_mm *= soft;
   }
+}
+
+void stand_still(SceneDescription&, const Dataset&, double) {}
+
+TransferPoint band_edge(double value, double opacity, Color color) {
+  TransferPoint p;
+  p.value = value;
+  p.opacity = opacity;
+  p.color = color;
+  return p;
+}
+
+constexpr Color kSkin{{0.85f, 0.57f, 0.43f}}, kMuscle{{0.55f, 0.19f, 0.14f}}, kBone{{0.86f, 0.77f, 0.62f}};
+
+/// Isosurfaces within one another; `peak` is the opacity of the outer ones.
+std::vector<TransferPoint> narrow_bands(double peak) {
+  return {band_edge(-350, 0, kSkin), band_edge(-250, peak, kSkin),       band_edge(-150, 0, kSkin),
+          band_edge(40, 0, kMuscle), band_edge(70, 0.5 * peak, kMuscle), band_edge(100, 0, kMuscle),
+          band_edge(180, 0, kBone),  band_edge(300, 2 * peak, kBone),    band_edge(420, 0, kBone),
+          band_edge(1000, 0, kBone), band_edge(1400, 0.8, kBone),        band_edge(3000, 0.8, kBone)};
+}
+
+std::vector<TransferPoint> one_extinction() {
+  std::vector<TransferPoint> points(3);
+  constexpr double kStart = -300, kMuPerMm = 0.1;
+  points[0].value = kStart - 1;
+  points[1].value = kStart;
+  points[2].value = 3100;
+  for (int i = 0; i < 3; ++i) {
+    points[i].mu_t_per_mm = i > 0 ? kMuPerMm : 0;
+    points[i].color = Color{{0.8f, 0.9f, 0.75f}};
+  }
+  return points;
+}
+
+/// Which file and which transfer function.
+void choose(const std::string& name, SceneDescription& scene) {
+  scene.volume.path = "data/head-ct.nrrd";
+  if (name == "head-ct") {
+    scene.transfer.preset = "ct-bone";
+  } else if (name == "mri-head") {
+    scene.volume.path = "data/mri-head.nii.gz";
+    scene.transfer.preset = "mri-head";
+  } else if (name == "phantom") {
+    scene.volume.path = "phantom";
+  } else if (name == "semi-transparent") {
+    scene.transfer.points = narrow_bands(0.12);
+  } else if (name == "spiky") {
+    scene.transfer.points = narrow_bands(0.04);
+    scene.render.max_scatter = 3;
+  } else if (name == "homogeneous") {
+    scene.transfer.points = one_extinction();
+    scene.material.shading = Shading::kPhase;
+  } else {
+    throw Error(ErrorCode::kBadParameter, "", "no data set \"" + name + "\"");
+  }
+}
+
+Film render_film(const SceneView& scene, int spp, std::uint32_t seed, bool classes) {
+  SceneView view = scene;
+  view.frame = seed;
+  view.keeps_parts = classes;
+  Film film(view.width, view.height, {.normal = classes, .albedo = classes, .classes = classes});
+  const std::vector<TileRect> tiles = make_tiles(view.width, view.height, 16);
+  parallel_for(static_cast<std::int64_t>(tiles.size()), 1, [&](std::int64_t i) {
+    TraceCounters counters;
+    render_tile(view, tiles[i], 0, spp, film, counters);
+  });
+  return film;
 }
 
 }  // namespace
 
-Dataset load_dataset(const std::string& name, const std::string& path, const std::string& preset, int width,
-                     int height) {
+Dataset load_dataset(const std::string& name, const std::string& environment, int width, int height) {
   Dataset data;
   data.name = name;
   SceneDescription scene;
-  scene.volume.path = path;
-  scene.transfer.preset = preset;
+  choose(name, scene);
   scene.image.width = width;
   scene.image.height = height;
+  scene.image.filter = PixelFilter::kBox;
+  scene.image.filter_radius_px = 0.5;
   scene.camera.azimuth_deg = 25;
   scene.camera.elevation_deg = 10;
   scene.camera.zoom = 1.5;
-  scene.image.filter = PixelFilter::kBox;
-  scene.image.filter_radius_px = 0.5;
   data.volume = open_volume(scene.volume);
   data.statistics = compute_statistics(make_grid_view(data.volume));
   data.scene = resolve(scene, data.volume, data.statistics);
-  data.scene.lights->resize(1);
   data.size_mm = radius_mm(data.volume);
+  data.scene.lights->resize(1);
+  put_light(data.scene, data, kLightAngle);
+  if (!environment.empty()) {
+    data.scene.environment->image = environment;
+    data.scene.environment->color = {};
+    data.scene.environment->intensity = 1;
+  }
+  data.edited = data.scene.transfer.points;
+  if (name == "head-ct") {
+    data.edited = find_preset("ct-muscle-bone").points(data.statistics);
+    data.soft_share = 0.13;  // below 156 HU
+  }
   return data;
 }
 
@@ -104,25 +194,36 @@ const std::vector<Animation>& animations() {
   return all;
 }
 
-std::unique_ptr<CompiledScene> compile_frame(const Dataset& data, const Animation& animation, double t,
-                                             std::uint64_t seed) {
-  SceneDescription scene = data.scene;
-  animation.set(scene, data, t);
-  scene.render.seed = seed;
-  return std::make_unique<CompiledScene>(std::move(scene), data.volume, data.statistics);
+const Animation& find_animation(const std::string& name) {
+  static const Animation still{"still", "nothing moves", stand_still};
+  for (const Animation& a : animations()) {
+    if (a.name == name) return a;
+  }
+  if (name == still.name) return still;
+  throw Error(ErrorCode::kBadParameter, "", "no animation \"" + name + "\"");
 }
 
-Film render_frame(const CompiledScene& scene, int spp, std::uint32_t frame, bool classes) {
-  SceneView view = scene.view();
-  view.frame = frame;
-  view.keeps_parts = classes;
-  Film film(view.width, view.height, {.normal = classes, .albedo = classes, .classes = classes});
-  const std::vector<TileRect> tiles = make_tiles(view.width, view.height, 16);
-  parallel_for(static_cast<std::int64_t>(tiles.size()), 1, [&](std::int64_t i) {
-    TraceCounters counters;
-    render_tile(view, tiles[i], 0, spp, film, counters);
-  });
-  return film;
+void Sequence::go_to(int frame) {
+  SceneDescription scene = data_.scene;
+  animation_.set(scene, data_, frame / kFramesOfATurn);
+  scene.render.seed = 1;
+  if (scene_) {
+    scene_->update(std::move(scene));
+  } else {
+    scene_ = std::make_unique<CompiledScene>(std::move(scene), data_.volume, data_.statistics);
+  }
+}
+
+double Sequence::render(int spp, std::uint32_t seed, DenoiseFrame& out) const {
+  const auto begin = std::chrono::steady_clock::now();
+  const Film film = render_film(view(), spp, seed, true);
+  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
+  fill_denoise_frame(film, view(), static_cast<float>(data_.size_mm), out);
+  return took.count();
+}
+
+Image Sequence::picture(int spp, std::uint32_t seed) const {
+  return image_from_film(render_film(view(), spp, seed, false), {}, false);
 }
 
 }  // namespace voxlume::study

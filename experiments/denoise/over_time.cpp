@@ -1,0 +1,142 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "metrics/flip.h"
+#include "metrics/metrics.h"
+#include "study.h"
+
+namespace voxlume::study {
+namespace {
+
+/// The frame in which soft matter vanishes (sequences.h), and frames after it that show what stays behind.
+constexpr int kAbruptFrame = 60, kGhostFrames = 4;
+
+/// How much of the picture before an abrupt change is still there: the share of `before` in the picture, by
+/// least squares, as a mixture of `before` and `exact`.
+double ghost_share(const Image& picture, const Image& exact, const Image& before) {
+  double product = 0, squares = 0;
+  for (std::size_t i = 0; i < picture.rgba.size(); ++i) {
+    const auto display = [](float v) { return pixel_value(v, PixelValues::kDisplay); };
+    const double change = display(before.rgba[i]) - display(exact.rgba[i]);
+    product += change * (display(picture.rgba[i]) - display(exact.rgba[i]));
+    squares += change * change;
+  }
+  return squares > 0 ? product / squares : 0;
+}
+
+/// One sequence at one number of samples.
+struct Run {
+  int spp;
+  std::vector<Method> methods;
+  DenoiseFrame frame;
+  std::map<std::string, std::array<double, 2>> sums;  ///< PSNR and FLIP over compared frames
+};
+
+std::vector<Method> methods_for(const Options& o, const Animation& animation, bool is_medium) {
+  std::vector<Method> methods = every_method(o.all_methods, false);
+  methods.push_back(still_method());
+  const bool ablates = !is_medium && (animation.name == "orbit" || animation.name == "transfer");
+  if (ablates) {
+    for (Method& m : ablations()) methods.push_back(std::move(m));
+  }
+  return methods;
+}
+
+struct Moment {
+  int frame = 0, compared = 0;  ///< compared: how many frames were before
+  bool is_compared = false, is_shown = false;
+  const Reference* exact = nullptr;  ///< null: the frame is not looked at
+  const Image* before = nullptr;     ///< what was there before an abrupt change; null: there was none
+};
+
+void look(const Options& o, const Sequence& sequence, const Moment& moment, Run& run, double render_ms,
+          Table& table) {
+  for (Method& method : run.methods) {
+    if (!method.has_history() && moment.exact == nullptr) continue;
+    if (method.name() == "oidn" && (!moment.is_compared || moment.compared % o.neural_every != 0)) continue;
+    const double ms = method.denoise(run.frame);
+    if (moment.exact == nullptr) continue;
+    const Image picture = method.picture(run.frame);
+    const Image& exact = moment.exact->image;
+    const double db = psnr(picture, exact).value_or(99), flip_mean = flip(picture, exact).mean;
+    std::string ghost;
+    if (moment.before) ghost = fmt::format("{:.5f}", ghost_share(picture, exact, *moment.before));
+    table.add(fmt::format("{},{},{},{},{},{},{:.6g},{:.4f},{:.4f},{:.5f},{:.5f},{},{:.2f},{:.1f}",
+                          sequence.data().name, sequence.animation().name, run.spp, moment.frame,
+                          method.name(), moment.is_compared ? 1 : 0, rmse(picture, exact), db,
+                          psnr_hdr(picture, exact).value_or(99), ssim(picture, exact).value_or(1), flip_mean,
+                          ghost, ms, render_ms));
+    if (moment.is_compared) run.sums[method.name()][0] += db, run.sums[method.name()][1] += flip_mean;
+    if (moment.is_shown)
+      write_display(o, picture,
+                    fmt::format("{}-{:03d}-{}spp-{}", sequence.name(), moment.frame, run.spp, method.name()));
+  }
+}
+
+void run_sequence(const Options& o, const Dataset& data, const Animation& animation, int frames,
+                  bool is_medium) {
+  Sequence sequence(data, animation);
+  Table table(o, "over-time-" + sequence.name(),
+              "data,animation,spp,frame,method,compared,rmse,psnr_db,psnr_hdr_db,ssim,flip,ghost,"
+              "denoise_ms,render_ms");
+  if (table.exists()) return;
+  std::vector<Run> runs;
+  for (const int spp : o.spp) runs.push_back({spp, methods_for(o, animation, is_medium), {}, {}});
+  const bool abrupt = animation.name == "transfer" && frames > kAbruptFrame;
+  Image before;
+  int compared = 0;
+  for (int f = 0; f < frames; ++f) {
+    sequence.go_to(f);
+    Moment moment{.frame = f, .compared = compared};
+    moment.is_compared = f % o.every == o.every - 1;
+    const bool after = abrupt && f >= kAbruptFrame && f < kAbruptFrame + kGhostFrames;
+    moment.is_shown = abrupt ? f == kAbruptFrame + 1 : f + o.every >= frames;
+    std::optional<Reference> exact;
+    if (moment.is_compared || after) {
+      exact = reference(o, sequence, f);
+      moment.exact = &*exact;
+      if (after) moment.before = &before;
+      if (moment.is_shown)
+        write_display(o, exact->image, fmt::format("{}-{:03d}-reference", sequence.name(), f));
+      table.add(fmt::format("{},{},{},{},reference,{},,{:.4f},,,{:.5f},,,", data.name, animation.name,
+                            o.reference_spp, f, moment.is_compared ? 1 : 0, exact->floor_db,
+                            exact->floor_flip));
+    }
+    for (Run& run : runs) {
+      const double ms = sequence.render(run.spp, static_cast<std::uint32_t>(f), run.frame);
+      look(o, sequence, moment, run, ms, table);
+    }
+    if (moment.is_compared) ++compared;
+    if (exact) before = std::move(exact->image);
+    fmt::print(stderr, "\r{}: frame {}/{} ", sequence.name(), f + 1, frames);
+  }
+  fmt::print(stderr, "\n");
+  for (const Run& run : runs) {
+    for (const auto& [method, sums] : run.sums)
+      fmt::print("{:28s} {:2d} spp {:24s} PSNR {:.2f} dB  FLIP {:.4f}\n", sequence.name(), run.spp, method,
+                 sums[0] / compared, sums[1] / compared);
+  }
+  std::fflush(stdout);
+  table.write();
+}
+
+}  // namespace
+
+void compare_over_time(const Options& o) {
+  for (const std::string& name : o.data) {
+    const Dataset data = load_dataset(name, o.environment, o.width, o.height);
+    for (const Animation& animation : animations()) {
+      const bool chosen =
+          o.animations.empty() || std::ranges::find(o.animations, animation.name) != o.animations.end();
+      if (chosen) run_sequence(o, data, animation, o.frames, false);
+    }
+  }
+  for (const std::string& name : o.media) {
+    const Dataset data = load_dataset(name, o.environment, o.width, o.height);
+    run_sequence(o, data, find_animation("orbit"), std::min(o.frames, o.media_frames), true);
+  }
+}
+
+}  // namespace voxlume::study
