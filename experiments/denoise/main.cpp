@@ -32,24 +32,23 @@ void make_full(Options& o) {
 }
 
 using Part = void (*)(const Options&);
-const std::vector<std::pair<std::string, Part>> kParts{{"over-time", compare_over_time},
-                                                       {"steadiness", measure_steadiness},
+const std::vector<std::pair<std::string, Part>> kParts{{"steadiness", measure_steadiness},
                                                        {"parts", show_parts},
                                                        {"sweep", sweep_samples},
-                                                       {"still", stand_still_study}};
+                                                       {"still", stand_still_study},
+                                                       {"over-time", compare_over_time}};
 
 /// What the pictures are of, for the page.
 void note_settings(const Options& o) {
-  std::ofstream(o.folder / "settings.txt") << fmt::format(
-      "{} x {} pixels, {} frames a sequence (every {}th compared with {} samples a pixel), {}; camera zoom "
-      "1.5. "
-      "One area light that stands still in the world, and {}. Steadiness: history of {} frames, {} pictures "
-      "of "
-      "the moment, {} frames at rest.\n",
-      o.width, o.height, o.frames, o.every, o.reference_spp,
-      o.media.empty() ? std::string("no other media") : fmt::format("{} of other media", o.media_frames),
-      o.environment.empty() ? "a constant environment" : "the environment picture " + o.environment,
-      o.history, o.seeds, o.rest);
+  std::ofstream file(o.folder / "settings.txt");
+  file << fmt::format("{} x {} pixels, {} frames a sequence", o.width, o.height, o.frames);
+  if (!o.media.empty()) file << fmt::format(" ({} of other media)", o.media_frames);
+  file << fmt::format(", every {}th compared with {} samples a pixel", o.every, o.reference_spp);
+  if (o.warm_up > 0) file << fmt::format(" after {} frames of history, the only others rendered", o.warm_up);
+  file << ". Camera zoom 1. One area light that stands still in the world, and "
+       << (o.environment.empty() ? "a constant environment" : "the environment picture " + o.environment)
+       << fmt::format(". Steadiness: {} frames of history, {} pictures of the moment, {} frames at rest.\n",
+                      o.history, o.seeds, o.rest);
 }
 
 /// Seconds that parts took, one line for each that did something.
@@ -74,6 +73,8 @@ int main(int argc, char** argv) {
   app.add_option("--height", o.height);
   app.add_option("--frames", o.frames);
   app.add_option("--every", o.every, "Frames from one that is compared to the next");
+  app.add_option("--warm-up", o.warm_up, "Frames rendered before one that is compared; 0: all");
+  app.add_option("--neural-every", o.neural_every, "Of the compared frames");
   app.add_option("--reference-spp", o.reference_spp);
   app.add_option("--spp", o.spp)->delimiter(',');
   app.add_option("--data", o.data)->delimiter(',');

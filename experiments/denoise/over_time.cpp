@@ -44,6 +44,26 @@ std::vector<Method> methods_for(const Options& o, const Animation& animation, bo
   return methods;
 }
 
+/// What a sequence's frames are for.
+struct Plan {
+  const Options& o;
+  int frames;
+  bool abrupt;  ///< soft matter vanishes
+
+  bool compares(int f) const { return f % o.every == o.every - 1; }
+  bool shows_ghosts(int f) const {
+    return abrupt && f >= kAbruptFrame - 1 && f < kAbruptFrame + kGhostFrames;
+  }
+  bool looks_at(int f) const { return f < frames && (compares(f) || shows_ghosts(f)); }
+  /// Whether it is looked at, or is history of a frame that is.
+  bool renders(int f) const {
+    for (int g = f; g < frames && (o.warm_up == 0 || g <= f + o.warm_up); ++g) {
+      if (looks_at(g)) return true;
+    }
+    return false;
+  }
+};
+
 struct Moment {
   int frame = 0, compared = 0;  ///< compared: how many frames were before
   bool is_compared = false, is_shown = false;
@@ -75,6 +95,23 @@ void look(const Options& o, const Sequence& sequence, const Moment& moment, Run&
   }
 }
 
+void forget(std::vector<Run>& runs) {
+  for (Run& run : runs) {
+    for (Method& method : run.methods) method.forget();
+  }
+}
+
+/// The reference of a moment, which is noted down with what is known of its noise.
+Reference look_up(const Options& o, const Sequence& sequence, const Moment& moment, Table& table) {
+  Reference exact = reference(o, sequence, moment.frame);
+  if (moment.is_shown)
+    write_display(o, exact.image, fmt::format("{}-{:03d}-reference", sequence.name(), moment.frame));
+  table.add(fmt::format("{},{},{},{},reference,{},,{:.4f},,,{:.5f},,,", sequence.data().name,
+                        sequence.animation().name, o.reference_spp, moment.frame, moment.is_compared ? 1 : 0,
+                        exact.floor_db, exact.floor_flip));
+  return exact;
+}
+
 void run_sequence(const Options& o, const Dataset& data, const Animation& animation, int frames,
                   bool is_medium) {
   Sequence sequence(data, animation);
@@ -84,32 +121,28 @@ void run_sequence(const Options& o, const Dataset& data, const Animation& animat
   if (table.exists()) return;
   std::vector<Run> runs;
   for (const int spp : o.spp) runs.push_back({spp, methods_for(o, animation, is_medium), {}, {}});
-  const bool abrupt = animation.name == "transfer" && frames > kAbruptFrame;
+  const Plan plan{o, frames, animation.name == "transfer" && frames > kAbruptFrame};
   Image before;
-  int compared = 0;
+  int compared = 0, last = -1;
   for (int f = 0; f < frames; ++f) {
+    if (!plan.renders(f)) continue;
+    if (f != last + 1) forget(runs);
+    last = f;
     sequence.go_to(f);
-    Moment moment{.frame = f, .compared = compared};
-    moment.is_compared = f % o.every == o.every - 1;
-    const bool after = abrupt && f >= kAbruptFrame && f < kAbruptFrame + kGhostFrames;
-    moment.is_shown = abrupt ? f == kAbruptFrame + 1 : f + o.every >= frames;
+    Moment moment{.frame = f, .compared = compared, .is_compared = plan.compares(f)};
+    moment.is_shown = plan.abrupt ? f == kAbruptFrame + 1 : f + o.every >= frames;
     std::optional<Reference> exact;
-    if (moment.is_compared || after) {
-      exact = reference(o, sequence, f);
+    if (plan.looks_at(f)) {
+      exact = look_up(o, sequence, moment, table);
       moment.exact = &*exact;
-      if (after) moment.before = &before;
-      if (moment.is_shown)
-        write_display(o, exact->image, fmt::format("{}-{:03d}-reference", sequence.name(), f));
-      table.add(fmt::format("{},{},{},{},reference,{},,{:.4f},,,{:.5f},,,", data.name, animation.name,
-                            o.reference_spp, f, moment.is_compared ? 1 : 0, exact->floor_db,
-                            exact->floor_flip));
+      if (plan.shows_ghosts(f) && f >= kAbruptFrame) moment.before = &before;
     }
     for (Run& run : runs) {
       const double ms = sequence.render(run.spp, static_cast<std::uint32_t>(f), run.frame);
       look(o, sequence, moment, run, ms, table);
     }
     if (moment.is_compared) ++compared;
-    if (exact) before = std::move(exact->image);
+    if (exact && f < kAbruptFrame) before = std::move(exact->image);
     fmt::print(stderr, "\r{}: frame {}/{} ", sequence.name(), f + 1, frames);
   }
   fmt::print(stderr, "\n");

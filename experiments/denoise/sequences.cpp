@@ -166,7 +166,7 @@ Dataset load_dataset(const std::string& name, const std::string& environment, in
   scene.image.filter_radius_px = 0.5;
   scene.camera.azimuth_deg = 25;
   scene.camera.elevation_deg = 10;
-  scene.camera.zoom = 1.5;
+  scene.camera.zoom = 1;
   data.volume = open_volume(scene.volume);
   data.statistics = compute_statistics(make_grid_view(data.volume));
   data.scene = resolve(scene, data.volume, data.statistics);

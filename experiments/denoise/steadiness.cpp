@@ -8,61 +8,82 @@
 namespace voxlume::study {
 namespace {
 
-/// Frames at one number of samples: those before a moment, the moment with several seeds, and frames after
-/// it in which nothing moves any more.
-struct Frames {
-  std::vector<DenoiseFrame> before, at, after;
-  double render_ms = 0;  ///< mean of one of `after`
+/// Seeds of pictures of one moment, and of frames in which nothing moves any more.
+constexpr std::uint32_t kMomentSeed = 10000, kRestSeed = 20000;
+
+/// A method and what is measured of it.
+struct Subject {
+  Method method;
+  TemporalVariance variance;
+  ConvergenceTime convergence;
+  double seconds = 0;     ///< since nothing moves
+  double denoise_ms = 0;  ///< of the last frame
 };
 
-Frames render_frames(const Options& o, Sequence& sequence, int moment, int spp) {
-  Frames frames;
+std::vector<Subject> subjects(const Options& o) {
+  std::vector<Subject> all;
+  for (Method& method : every_method(o.all_methods, false)) {
+    // A network needs most of a second a frame and has no history.
+    if (method.name() != "oidn") all.push_back({std::move(method), TemporalVariance(), ConvergenceTime()});
+  }
+  return all;
+}
+
+/// Frames just before a moment.
+std::vector<DenoiseFrame> render_history(const Options& o, Sequence& sequence, int moment, int spp) {
+  std::vector<DenoiseFrame> frames;
   for (int f = std::max(moment - o.history, 0); f < moment; ++f) {
     sequence.go_to(f);
-    sequence.render(spp, static_cast<std::uint32_t>(f), frames.before.emplace_back());
+    sequence.render(spp, static_cast<std::uint32_t>(f), frames.emplace_back());
   }
-  sequence.go_to(moment);
-  for (int i = 0; i < o.seeds; ++i)
-    sequence.render(spp, static_cast<std::uint32_t>(10000 + i), frames.at.emplace_back());
-  for (int i = 0; i < o.rest; ++i)
-    frames.render_ms +=
-        sequence.render(spp, static_cast<std::uint32_t>(20000 + i), frames.after.emplace_back()) / o.rest;
   return frames;
 }
 
-void replay(Method& method, const Frames& frames) {
+/// The history is played anew for each seed: denoisers cannot be copied.
+void replay(Method& method, const std::vector<DenoiseFrame>& history) {
   method.forget();
   if (!method.has_history()) return;
-  for (const DenoiseFrame& frame : frames.before) method.denoise(frame);
+  for (const DenoiseFrame& frame : history) method.denoise(frame);
 }
 
-/// The histories are played anew for each seed: denoisers cannot be copied.
-double variance(Method& method, const Frames& frames) {
-  TemporalVariance variance;
-  for (const DenoiseFrame& frame : frames.at) {
-    replay(method, frames);
-    method.denoise(frame);
-    variance.add(method.picture(frame));
+void measure_variance(const Options& o, const Sequence& sequence, int spp,
+                      const std::vector<DenoiseFrame>& history, std::vector<Subject>& all) {
+  DenoiseFrame frame;
+  for (int i = 0; i < o.seeds; ++i) {
+    sequence.render(spp, kMomentSeed + static_cast<std::uint32_t>(i), frame);
+    for (Subject& s : all) {
+      replay(s.method, history);
+      s.method.denoise(frame);
+      s.variance.add(s.method.picture(frame));
+    }
   }
-  return variance.sum();
+  // What is on show when everything stops.
+  for (Subject& s : all) s.convergence.add(s.method.picture(frame), 0);
 }
 
-std::string convergence(Method& method, const Frames& frames) {
-  replay(method, frames);
-  method.denoise(frames.at.front());
-  ConvergenceTime time;
-  time.add(method.picture(frames.at.front()), 0);
-  double seconds = 0, denoise_ms = 0;
-  for (const DenoiseFrame& frame : frames.after) {
-    denoise_ms = method.denoise(frame);
-    seconds += (frames.render_ms + denoise_ms) / 1000;
-    time.add(method.picture(frame), seconds);
+/// Goes on from the last picture of measure_variance. The mean time to render a frame [ms].
+double measure_convergence(const Options& o, const Sequence& sequence, int spp, std::vector<Subject>& all) {
+  DenoiseFrame frame;
+  double sum_ms = 0;
+  for (int i = 0; i < o.rest; ++i) {
+    const double render_ms = sequence.render(spp, kRestSeed + static_cast<std::uint32_t>(i), frame);
+    sum_ms += render_ms;
+    for (Subject& s : all) {
+      s.denoise_ms = s.method.denoise(frame);
+      s.seconds += (render_ms + s.denoise_ms) / 1000;
+      s.convergence.add(s.method.picture(frame), s.seconds);
+    }
   }
+  return sum_ms / o.rest;
+}
+
+std::string convergence_columns(const Subject& s, double render_ms) {
   const auto moment = [](const std::optional<ConvergenceTime::Moment>& m) {
     return m ? fmt::format("{},{:.4f}", m->frame, m->seconds) : std::string(",");
   };
-  return fmt::format("{},{},{:.5f},{:.5f},{:.2f},{:.2f}", moment(time.converged()), moment(time.settled()),
-                     time.changes().front(), time.changes().back(), frames.render_ms, denoise_ms);
+  return fmt::format("{},{},{:.5f},{:.5f},{:.2f},{:.2f}", moment(s.convergence.converged()),
+                     moment(s.convergence.settled()), s.convergence.changes().front(),
+                     s.convergence.changes().back(), render_ms, s.denoise_ms);
 }
 
 void measure(const Options& o, const Dataset& data, const Animation& animation) {
@@ -72,16 +93,18 @@ void measure(const Options& o, const Dataset& data, const Animation& animation) 
              "data,animation,spp,frame,method,frames,seconds,settled_frames,settled_seconds,first_change,"
              "last_change,render_ms,denoise_ms");
   if (rest.exists()) return;
-  std::vector<Method> methods = every_method(o.all_methods, false);
-  std::erase_if(methods, [](const Method& m) { return m.name() == "oidn"; });
   for (const int moment : o.moments) {
     for (const int spp : o.spp) {
-      const Frames frames = render_frames(o, sequence, moment, spp);
-      for (Method& method : methods) {
+      std::vector<Subject> all = subjects(o);
+      const std::vector<DenoiseFrame> history = render_history(o, sequence, moment, spp);
+      sequence.go_to(moment);
+      measure_variance(o, sequence, spp, history, all);
+      const double render_ms = measure_convergence(o, sequence, spp, all);
+      for (const Subject& s : all) {
         const std::string where =
-            fmt::format("{},{},{},{},{},", data.name, animation.name, spp, moment, method.name());
-        steady.add(where + fmt::format("{:.6g}", variance(method, frames)));
-        rest.add(where + convergence(method, frames));
+            fmt::format("{},{},{},{},{},", data.name, animation.name, spp, moment, s.method.name());
+        steady.add(where + fmt::format("{:.6g}", s.variance.sum()));
+        rest.add(where + convergence_columns(s, render_ms));
       }
     }
     fmt::print(stderr, "\rsteadiness: {} frame {} ", sequence.name(), moment);
