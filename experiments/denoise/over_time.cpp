@@ -118,7 +118,6 @@ void run_sequence(const Options& o, const Dataset& data, const Animation& animat
   Table table(o, "over-time-" + sequence.name(),
               "data,animation,spp,frame,method,compared,rmse,psnr_db,psnr_hdr_db,ssim,flip,ghost,"
               "denoise_ms,render_ms");
-  if (table.exists()) return;
   std::vector<Run> runs;
   for (const int spp : o.spp) runs.push_back({spp, methods_for(o, animation, is_medium), {}, {}});
   const Plan plan{o, frames, animation.name == "transfer" && frames > kAbruptFrame};
@@ -158,17 +157,14 @@ void run_sequence(const Options& o, const Dataset& data, const Animation& animat
 }  // namespace
 
 void compare_over_time(const Options& o) {
-  for (const std::string& name : o.data) {
-    const Dataset data = load_dataset(name, o.environment, o.width, o.height);
-    for (const Animation& animation : animations()) {
-      const bool chosen =
-          o.animations.empty() || std::ranges::find(o.animations, animation.name) != o.animations.end();
-      if (chosen) run_sequence(o, data, animation, o.frames, false);
-    }
-  }
+  for_each_sequence(o, "over-time", [&](const Dataset& data, const Animation& animation) {
+    run_sequence(o, data, animation, o.frames, false);
+  });
   for (const std::string& name : o.media) {
-    const Dataset data = load_dataset(name, o.environment, o.width, o.height);
-    run_sequence(o, data, find_animation("orbit"), std::min(o.frames, o.media_frames), true);
+    const Animation& orbit = find_animation("orbit");
+    if (has_table(o, "over-time-" + name + "-" + orbit.name)) continue;
+    run_sequence(o, load_dataset(name, o.environment, o.width, o.height), orbit,
+                 std::min(o.frames, o.media_frames), true);
   }
 }
 

@@ -151,7 +151,7 @@ Image error_map(const Image& image, const Image& exact) {
 
 void show_parts(const Options& o) {
   Table table(o, "classes", "data,classes,mean_absolute_error,mean_error");
-  if (table.exists()) return;
+  if (has_table(o, "classes")) return;
   for (const std::string& name : o.data) {
     Dataset data = load_dataset(name, o.environment, o.width, o.height);
     // Where matter of several kinds lies behind one another.

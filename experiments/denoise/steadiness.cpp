@@ -92,7 +92,6 @@ void measure(const Options& o, const Dataset& data, const Animation& animation) 
   Table rest(o, "convergence-" + sequence.name(),
              "data,animation,spp,frame,method,frames,seconds,settled_frames,settled_seconds,first_change,"
              "last_change,render_ms,denoise_ms");
-  if (rest.exists()) return;
   for (const int moment : o.moments) {
     for (const int spp : o.spp) {
       std::vector<Subject> all = subjects(o);
@@ -117,14 +116,8 @@ void measure(const Options& o, const Dataset& data, const Animation& animation) 
 }  // namespace
 
 void measure_steadiness(const Options& o) {
-  for (const std::string& name : o.data) {
-    const Dataset data = load_dataset(name, o.environment, o.width, o.height);
-    for (const Animation& animation : animations()) {
-      const bool chosen =
-          o.animations.empty() || std::ranges::find(o.animations, animation.name) != o.animations.end();
-      if (chosen) measure(o, data, animation);
-    }
-  }
+  for_each_sequence(o, "convergence",
+                    [&](const Dataset& data, const Animation& animation) { measure(o, data, animation); });
 }
 
 }  // namespace voxlume::study

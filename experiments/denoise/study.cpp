@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -49,7 +50,23 @@ void write_display(const Options& o, const Image& picture, const std::string& na
 Table::Table(const Options& options, const std::string& name, const std::string& columns)
     : path_(options.folder / (name + ".csv")), text_(columns + '\n') {}
 
-bool Table::exists() const { return fs::exists(path_); }
+bool has_table(const Options& options, const std::string& name) {
+  return fs::exists(options.folder / (name + ".csv"));
+}
+
+void for_each_sequence(const Options& o, const std::string& table,
+                       const std::function<void(const Dataset&, const Animation&)>& body) {
+  for (const std::string& name : o.data) {
+    std::optional<Dataset> data;
+    for (const Animation& animation : animations()) {
+      const bool chosen =
+          o.animations.empty() || std::ranges::find(o.animations, animation.name) != o.animations.end();
+      if (!chosen || has_table(o, table + "-" + name + "-" + animation.name)) continue;
+      if (!data) data = load_dataset(name, o.environment, o.width, o.height);
+      body(*data, animation);
+    }
+  }
+}
 
 void Table::write() const {
   const fs::path aside = path_.string() + ".part";

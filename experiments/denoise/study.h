@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,8 +46,6 @@ void write_display(const Options& options, const Image& picture, const std::stri
 class Table {
  public:
   Table(const Options& options, const std::string& name, const std::string& columns);
-  /// Whether a study left the file before.
-  bool exists() const;
   void add(const std::string& row) { text_ += row + '\n'; }
   void write() const;
 
@@ -54,6 +53,14 @@ class Table {
   std::filesystem::path path_;
   std::string text_;
 };
+
+/// Whether a study left the table of that name before.
+bool has_table(const Options& options, const std::string& name);
+
+/// Runs `body` with every data set and animation chosen of which there is no table called
+/// `table`-DATA-ANIMATION yet.
+void for_each_sequence(const Options& options, const std::string& table,
+                       const std::function<void(const Dataset& data, const Animation& animation)>& body);
 
 // The parts of the study; each leaves alone what is there.
 

@@ -15,7 +15,7 @@ constexpr int kSweepFrames = 8, kSweepEnd = 31;
 
 void sweep(const Options& o, const std::string& name) {
   Table table(o, "sweep-" + name, "data,spp,method,psnr_db,flip,render_ms,denoise_ms,frames_per_second");
-  if (table.exists()) return;
+  if (has_table(o, "sweep-" + name)) return;
   const Dataset data = load_dataset(name, o.environment, o.width, o.height);
   Sequence sequence(data, find_animation("orbit"));
   const int end = std::min(kSweepEnd, o.frames - 1);
@@ -73,7 +73,7 @@ void sweep_samples(const Options& o) {
 
 void stand_still_study(const Options& o) {
   Table table(o, "still", "data,spp,method,psnr_db,flip,variance_sum,spike_share");
-  if (table.exists() || o.media.empty()) return;
+  if (has_table(o, "still") || o.media.empty()) return;
   const Dataset data = load_dataset("spiky", o.environment, o.width, o.height);
   Sequence sequence(data, find_animation("still"));
   sequence.go_to(0);
