@@ -22,19 +22,60 @@ std::pair<int, int> pixel_at(const TileRect& tile, int index) {
   return {tile.x0 + index % width, tile.y0 + index / width};
 }
 
-/// Follows many paths at once through some samples of every pixel of a tile: one in each lane of the vector
-/// tracker, and the next as soon as one ends. What happens at scatterings is scalar code.
-class LaneTracer {
+/// The rays of samples [sample_begin, sample_end) of every pixel of a tile. Samples of one pixel follow each
+/// other: neighbouring lanes take like ways.
+class TileRays {
  public:
-  LaneTracer(const SceneView& scene, const TileRect& tile, int sample_begin, int sample_end,
-             std::span<PixelSample> results, std::span<RadianceParts> parts, TraceCounters& counters)
+  TileRays(const SceneView& scene, const TileRect& tile, int sample_begin, int sample_end)
       : scene_(scene),
         tile_(tile),
         sample_begin_(sample_begin),
         samples_per_pixel_(sample_end - sample_begin),
-        results_(results),
-        parts_(parts),
-        counters_(counters) {}
+        count_(static_cast<std::size_t>(tile.pixel_count()) * static_cast<std::size_t>(samples_per_pixel_)) {}
+
+  /// To be asked for in order.
+  PrimaryRay operator[](std::size_t job) {
+    if (!fill_) {
+      const auto [x, y] = pixel_of(job);
+      return make_primary_ray(scene_, x, y, sample_of(job));
+    }
+    const int at = static_cast<int>(job % PrimaryRayBatch::kCount);
+    if (at == 0) {
+      for (std::size_t i = 0; i < PrimaryRayBatch::kCount; ++i) {
+        const std::size_t one = std::min(job + i, count_ - 1);
+        std::tie(batch_.x[i], batch_.y[i]) = pixel_of(one);
+        batch_.sample[i] = static_cast<std::int32_t>(sample_of(one));
+      }
+      fill_(scene_, batch_);
+    }
+    return batch_.at(at);
+  }
+
+ private:
+  std::pair<int, int> pixel_of(std::size_t job) const {
+    return pixel_at(tile_, static_cast<int>(job) / samples_per_pixel_);
+  }
+
+  std::uint32_t sample_of(std::size_t job) const {
+    return static_cast<std::uint32_t>(sample_begin_ + static_cast<int>(job) % samples_per_pixel_);
+  }
+
+  const SceneView& scene_;
+  const TileRect tile_;
+  const int sample_begin_, samples_per_pixel_;
+  const std::size_t count_;
+  const FillPrimaryRays fill_ = vector_primary_rays(scene_.simd, scene_.camera);
+  PrimaryRayBatch batch_;
+};
+
+/// Follows many paths at once, those of Rays: one in each lane of the vector tracker, and the next as soon as
+/// one ends. What happens at scatterings is scalar code.
+template <class Rays>
+class LaneTracer {
+ public:
+  LaneTracer(const SceneView& scene, Rays rays, std::span<PixelSample> results,
+             std::span<RadianceParts> parts, TraceCounters& counters)
+      : scene_(scene), rays_(rays), results_(results), parts_(parts), counters_(counters) {}
 
   void trace() {
     for (int lane = 0; lane < Lanes::kCount; ++lane) start_next(lane);
@@ -48,33 +89,6 @@ class LaneTracer {
  private:
   using Wait = CameraPath::Wait;
 
-  /// Samples of one pixel follow each other: neighbouring lanes take like ways.
-  std::pair<int, int> pixel_of(std::size_t job) const {
-    return pixel_at(tile_, static_cast<int>(job) / samples_per_pixel_);
-  }
-
-  std::uint32_t sample_of(std::size_t job) const {
-    return static_cast<std::uint32_t>(sample_begin_ + static_cast<int>(job) % samples_per_pixel_);
-  }
-
-  /// Jobs are asked for in order.
-  PrimaryRay primary_ray(std::size_t job) {
-    if (!fill_) {
-      const auto [x, y] = pixel_of(job);
-      return make_primary_ray(scene_, x, y, sample_of(job));
-    }
-    const int at = static_cast<int>(job % PrimaryRayBatch::kCount);
-    if (at == 0) {
-      for (std::size_t i = 0; i < PrimaryRayBatch::kCount; ++i) {
-        const std::size_t one = std::min(job + i, results_.size() - 1);
-        std::tie(batch_.x[i], batch_.y[i]) = pixel_of(one);
-        batch_.sample[i] = static_cast<std::int32_t>(sample_of(one));
-      }
-      fill_(scene_, batch_);
-    }
-    return batch_.at(at);
-  }
-
   void finish(int lane, std::size_t job) {
     results_[job] = paths_[lane].sample();
     if (!parts_.empty()) parts_[job] = paths_[lane].parts();
@@ -85,7 +99,7 @@ class LaneTracer {
     lanes_.state[lane] = Lanes::kIdle;
     while (next_job_ < results_.size()) {
       const std::size_t job = next_job_++;
-      const Wait wait = paths_[lane].begin(scene_, primary_ray(job), counters_);
+      const Wait wait = paths_[lane].begin(scene_, rays_[job], counters_);
       if (wait == Wait::kNothing) {
         finish(lane, job);
       } else {
@@ -116,14 +130,11 @@ class LaneTracer {
   }
 
   const SceneView& scene_;
-  const TileRect tile_;
-  const int sample_begin_, samples_per_pixel_;
+  Rays rays_;
   const std::span<PixelSample> results_;
   const std::span<RadianceParts> parts_;
   TraceCounters& counters_;
   const VectorTracker track_lanes_ = vector_tracker(scene_.simd, scene_.medium);
-  const FillPrimaryRays fill_ = vector_primary_rays(scene_.simd, scene_.camera);
-  PrimaryRayBatch batch_;
   std::size_t next_job_ = 0;
   int busy_lanes_ = 0;
   Lanes lanes_;
@@ -131,14 +142,13 @@ class LaneTracer {
   std::size_t jobs_[Lanes::kCount];
 };
 
-}  // namespace
-
-PixelSample trace_camera_sample(const SceneView& scene, int x, int y, std::uint32_t sample,
-                                TraceCounters& counters, RadianceParts* parts) noexcept {
+/// One path by scalar code.
+PixelSample trace_ray(const SceneView& scene, const PrimaryRay& primary, TraceCounters& counters,
+                      RadianceParts* parts) noexcept {
   using Wait = CameraPath::Wait;
   CameraPath path;
   TrackingCounters tracking;
-  Wait wait = path.begin(scene, make_primary_ray(scene, x, y, sample), counters);
+  Wait wait = path.begin(scene, primary, counters);
   while (wait != Wait::kNothing) {
     wait = wait == Wait::kFlight
                ? path.end_flight(scene,
@@ -156,10 +166,24 @@ PixelSample trace_camera_sample(const SceneView& scene, int x, int y, std::uint3
   return path.sample();
 }
 
+}  // namespace
+
+PixelSample trace_camera_sample(const SceneView& scene, int x, int y, std::uint32_t sample,
+                                TraceCounters& counters, RadianceParts* parts) noexcept {
+  return trace_ray(scene, make_primary_ray(scene, x, y, sample), counters, parts);
+}
+
+void trace_rays(const SceneView& scene, std::span<const PrimaryRay> rays, std::span<PixelSample> samples,
+                TraceCounters& counters) {
+  if (scene.simd != SimdTarget::kScalar) return LaneTracer(scene, rays, samples, {}, counters).trace();
+  for (std::size_t i = 0; i < rays.size(); ++i) samples[i] = trace_ray(scene, rays[i], counters, nullptr);
+}
+
 void trace_tile(const SceneView& scene, const TileRect& tile, int sample_begin, int sample_end,
                 std::span<PixelSample> samples, std::span<RadianceParts> parts, TraceCounters& counters) {
   if (scene.simd != SimdTarget::kScalar)
-    return LaneTracer(scene, tile, sample_begin, sample_end, samples, parts, counters).trace();
+    return LaneTracer(scene, TileRays(scene, tile, sample_begin, sample_end), samples, parts, counters)
+        .trace();
   std::size_t next = 0;
   for (int pixel = 0; pixel < tile.pixel_count(); ++pixel) {
     const auto [x, y] = pixel_at(tile, pixel);
