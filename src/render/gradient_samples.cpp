@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <span>
 
 #include "base/parallel.h"
@@ -14,27 +13,17 @@ namespace {
 
 constexpr int kStratum = 3;  ///< edge of a stratum [pixels]
 /// Rays that are traced together: enough to keep all lanes busy.
-constexpr std::int64_t kRaysTogether = 256;
+constexpr std::size_t kRaysTogether = 256;
 
 int strata(int pixels) { return (pixels + kStratum - 1) / kStratum; }
 
-}  // namespace
+/// How far, relative to what is seen, the scattering of a sample that has moved may be from where it was.
+constexpr float kSameMatter = 0.02f;
 
-/// Whether a sample that was traced again is the one before: finite, and of the same matter if it has moved.
-/// Where it has not, other matter is a change that the gradients are to tell of.
-bool GradientSampler::is_same(const SceneView& scene, const Moved& moved, const PrimaryRay& primary,
-                              const PixelSample& now) const {
-  if (!is_finite(now.radiance) || !std::isfinite(now.depth_mm)) return false;
-  const bool still = moved.center_px == moved.sample->center_px && moved.center_py == moved.sample->center_py;
-  if (still) return true;
-  const float expected_mm = length(moved.sample->p_world - primary.origin_world);
-  static const float tol = std::getenv("GTOL") ? std::atof(std::getenv("GTOL")) : 0.01f;
-  return now.alpha > 0 && std::abs(now.depth_mm - expected_mm) <= tol * size_mm_;
-}
+}  // namespace
 
 void GradientSampler::fill(const SceneView& scene, const Film& film, DenoiseFrame& frame) {
   if (width_ == scene.width && height_ == scene.height) {
-    size_mm_ = frame.size_mm;
     trace_again(scene, frame);
   } else {
     frame.gradients.reset();
@@ -47,8 +36,8 @@ std::vector<GradientSampler::Moved> GradientSampler::move(const SceneView& scene
   const int columns = strata(width_);
   std::vector<Moved> nearest(static_cast<std::size_t>(columns) * strata(height_));
   for (const Sample& sample : samples_) {
-    const PixelPosition before = project(camera_, sample.p_world),
-                        now = project(scene.camera, sample.p_world);
+    const PixelPosition before = project(camera_, sample.p_world);
+    const PixelPosition now = project(scene.camera, sample.p_world);
     if (!scene.camera.orthographic && !(now.depth_mm > 0)) continue;
     // By the difference, which leaves a pixel of an unmoved camera exactly where it was, and a lens nearly.
     const Moved moved{&sample, sample.center_px + (now.px - before.px),
@@ -64,6 +53,15 @@ std::vector<GradientSampler::Moved> GradientSampler::move(const SceneView& scene
   return nearest;
 }
 
+/// Whether a sample that was traced again tells how the light has changed. Where the picture stands still,
+/// other matter than before is such a change; where it moves, it is only another view.
+bool GradientSampler::tells(const Moved& moved, Vec3f eye_mm, const PixelSample& now, float size_mm) {
+  if (!is_finite(now.radiance)) return false;
+  const Sample& before = *moved.sample;
+  if (moved.center_px == before.center_px && moved.center_py == before.center_py) return true;
+  return now.alpha > 0 && std::abs(now.depth_mm - length(before.p_world - eye_mm)) <= kSameMatter * size_mm;
+}
+
 void GradientSampler::trace_again(const SceneView& scene, DenoiseFrame& frame) const {
   const int columns = strata(width_);
   const Plane zeros(columns, strata(height_));
@@ -73,26 +71,28 @@ void GradientSampler::trace_again(const SceneView& scene, DenoiseFrame& frame) c
   for (std::size_t i = 0; i < nearest.size(); ++i)
     if (nearest[i].sample != nullptr) filled.push_back(i);
 
-  const auto count = static_cast<std::int64_t>(filled.size());
-  parallel_for((count + kRaysTogether - 1) / kRaysTogether, 1, [&](std::int64_t run) {
-    const auto begin = static_cast<std::size_t>(run * kRaysTogether);
-    const std::span own =
-        std::span(filled).subspan(begin, std::min<std::size_t>(kRaysTogether, filled.size() - begin));
+  const auto trace = [&](std::span<const std::size_t> own) {
     std::vector<PrimaryRay> rays;
-    for (const std::size_t i : own)
-      rays.push_back(
-          make_primary_ray(scene, nearest[i].sample->stream, nearest[i].center_px, nearest[i].center_py));
+    for (const std::size_t i : own) {
+      const Moved& moved = nearest[i];
+      rays.push_back(make_primary_ray(scene, moved.sample->stream, moved.center_px, moved.center_py));
+    }
     std::vector<PixelSample> samples(rays.size());
     TraceCounters counters;
     trace_rays(scene, rays, samples, counters);
     for (std::size_t i = 0; i < own.size(); ++i) {
       const Moved& moved = nearest[own[i]];
-      if (!is_same(scene, moved, rays[i], samples[i])) continue;
+      if (!tells(moved, rays[i].origin_world, samples[i], frame.size_mm)) continue;
       const int x = static_cast<int>(own[i]) % columns, y = static_cast<int>(own[i]) / columns;
       out.now.at(x, y) = samples[i].alpha > 0 ? luminance(samples[i].radiance) : 0.0f;
       out.before.at(x, y) = moved.sample->luminance;
       out.valid.at(x, y) = 1;
     }
+  };
+  const auto runs = static_cast<std::int64_t>((filled.size() + kRaysTogether - 1) / kRaysTogether);
+  parallel_for(runs, 1, [&](std::int64_t run) {
+    const std::size_t begin = static_cast<std::size_t>(run) * kRaysTogether;
+    trace(std::span(filled).subspan(begin, std::min(kRaysTogether, filled.size() - begin)));
   });
 }
 
@@ -104,11 +104,10 @@ void GradientSampler::keep(const SceneView& scene, const Film& film) {
   for (int y0 = 0; y0 < height_; y0 += kStratum) {
     for (int x0 = 0; x0 < width_; x0 += kStratum) {
       const int wide = std::min(kStratum, width_ - x0), pixels = wide * std::min(kStratum, height_ - y0);
-      const std::uint32_t at = sample_stream(scene, x0, y0, 0).pixel;
-      const int pick =
-          static_cast<int>(mix_bits(at ^ mix_bits(scene.frame)) % static_cast<std::uint32_t>(pixels));
+      const std::uint32_t hash = mix_bits(sample_stream(scene, x0, y0, 0).pixel ^ mix_bits(scene.frame));
+      const int pick = static_cast<int>(hash % static_cast<std::uint32_t>(pixels));
       for (int i = 0; i < pixels; ++i) {
-        const int x = x0 + (pick + i) % pixels % wide, y = y0 + (pick + i) % pixels / wide;
+        const int at = (pick + i) % pixels, x = x0 + at % wide, y = y0 + at / wide;
         const PixelClasses& pixel = film.classes(x, y);
         if (!(pixel.first_depth_mm > 0)) continue;
         const PrimaryRay primary = make_primary_ray(scene, x, y, 0);

@@ -40,13 +40,11 @@ class GradientSampler {
 
   std::vector<Moved> move(const SceneView& scene) const;
   void trace_again(const SceneView& scene, DenoiseFrame& frame) const;
-  bool is_same(const SceneView& scene, const Moved& moved, const PrimaryRay& primary,
-               const PixelSample& now) const;
+  static bool tells(const Moved& moved, Vec3f eye_mm, const PixelSample& now, float size_mm);
   void keep(const SceneView& scene, const Film& film);
 
   std::vector<Sample> samples_;
   CameraView camera_{};
-  float size_mm_ = 1;
   int width_ = 0, height_ = 0;  ///< of the picture
 };
 
