@@ -39,6 +39,9 @@ std::string camera_json(const CameraView& camera, const Double3& origin_mm) {
       .dump();
 }
 
+/// Samples of a pixel that are divided into classes together, where a denoiser asks for them.
+constexpr int kClassifiedTogether = 32;
+
 bool is_transparent(const SceneDescription& scene) {
   return scene.background && scene.background->kind == BackgroundKind::kTransparent;
 }
@@ -48,27 +51,37 @@ bool is_transparent(const SceneDescription& scene) {
 PictureSamples render_picture(const CompiledScene& scene, const std::string& fingerprint,
                               const PictureOptions& options) {
   const ImageDescription& image = scene.description().image;
+  FilmLayers layers = film_layers(options.aovs);
+  const FilmLayers for_denoiser = denoiser_layers(scene.description().render.denoise);
+  layers.normal |= for_denoiser.normal;
+  layers.albedo |= for_denoiser.albedo;
+  layers.classes |= for_denoiser.classes;
   PictureSamples out{options.resume && std::filesystem::exists(options.checkpoint)
                          ? load_checkpoint(options.checkpoint, fingerprint)
-                         : RenderState{Film(image.width, image.height, film_layers(options.aovs)), {}, 0}};
+                         : RenderState{Film(image.width, image.height, layers), {}, 0}};
   RenderLoopOptions loop;
   loop.stop = {image.spp, image.seconds, image.noise};
+  if (layers.classes) loop.first_run = kClassifiedTogether;
   loop.threads = options.threads;
   loop.cancel = options.cancel;
   loop.checkpoint = options.checkpoint;
   loop.fingerprint = fingerprint;
   loop.progress = options.progress;
+  SceneView view = scene.view();
+  view.keeps_parts = layers.classes;
   const auto trace = [&](const TileRect& tile, int begin, int end, Film& film, TraceCounters& counters) {
-    render_tile(scene.view(), tile, begin, end, film, counters);
+    render_tile(view, tile, begin, end, film, counters);
   };
   out.status = run_render_loop(out.state, trace, loop).status;
   return out;
 }
 
 Image finish_picture(const RenderState& state, const CompiledScene& scene,
-                     const std::vector<std::string>& aovs, const std::optional<FrameStamp>& frame) {
+                     const std::vector<std::string>& aovs, const std::optional<FrameStamp>& frame,
+                     PictureDenoiser* denoiser) {
   const SceneDescription& description = scene.description();
   Image image = image_from_film(state.film, aovs, is_transparent(description));
+  if (denoiser != nullptr) denoiser->apply(state.film, scene, image);
   image.metadata["voxlume:scene"] = anonymous_scene(description);
   image.metadata["voxlume:seed"] = std::to_string(description.render.seed);
   image.metadata["voxlume:version"] = VOXLUME_VERSION;
