@@ -52,7 +52,7 @@ Traced trace(const SceneDescription& description, int spp) {
   return out;
 }
 
-Vec3f composed(const RadianceParts& p) { return (p.fx_diffuse + p.fx_specular) * p.fl + p.later; }
+Vec3f composed(const RadianceParts& p) { return p.direct_diffuse + p.direct_specular + p.later; }
 
 struct PartsMode {
   const char* name;
