@@ -93,5 +93,20 @@ TEST_F(Classes, OfSamplesAddedTogetherDoNotDependOnTheirNumber) {
   EXPECT_EQ(pixel().classes[1].count, 50u);
 }
 
+TEST_F(Classes, KeepWhatTheFirstSampleOfThePixelMet) {
+  film_.add(0, 0, hit(2, 30));
+  film_.add(0, 0, hit(5, 20));
+  EXPECT_FLOAT_EQ(pixel().first_luminance, 2);
+  EXPECT_EQ(pixel().first_depth_mm, 30);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (const PixelSample& nothing : {PixelSample{.radiance = Vec3f(3)}, hit(nan, 30), hit(2, nan)}) {
+    Film film(1, 1, {.classes = true});
+    film.add(0, 0, nothing);
+    film.add(0, 0, hit(5, 20));
+    EXPECT_EQ(film.classes(0, 0).first_luminance, 0);
+    EXPECT_EQ(film.classes(0, 0).first_depth_mm, 0);
+  }
+}
+
 }  // namespace
 }  // namespace voxlume
