@@ -91,7 +91,8 @@ struct Traced {
 };
 
 bool same(const RadianceParts& a, const RadianceParts& b) {
-  return a.fx_diffuse == b.fx_diffuse && a.fx_specular == b.fx_specular && a.fl == b.fl &&
+  return a.fx_diffuse == b.fx_diffuse && a.fx_specular == b.fx_specular &&
+         a.direct_diffuse == b.direct_diffuse && a.direct_specular == b.direct_specular &&
          a.later == b.later && a.dense == b.dense;
 }
 
