@@ -11,9 +11,10 @@
 #include <bit>
 
 #include "base/voxel_type.h"
+#include "grid/voxel_pairs-inl.h"
 #include "sampling/vector_random-inl.h"
 #include "tracking/lanes.h"
-#include "tracking/voxel_lanes-inl.h"
+#include "transfer/vector_transfer-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace voxlume {
@@ -259,7 +260,7 @@ class LaneTracker {
     for (int a = 0; a < 3; ++a) store_where(fetches, base[a], lanes_.fetched[a], v);
     std::uint8_t bytes[8] = {};
     hn::StoreMaskBits(kI, fetches, bytes);
-    VoxelPairs<Voxel> pairs(lanes_, v);
+    VoxelPairs<Voxel, Lanes::kCount> pairs(lanes_.pairs, v);
     const auto* voxels = static_cast<const Voxel*>(grid_.voxels);
     const std::int64_t next_j = grid_.size[1] > 1 ? grid_.stride_j : 0,
                        next_k = grid_.size[2] > 1 ? grid_.stride_k : 0;
@@ -270,38 +271,13 @@ class LaneTracker {
       pairs.fetch(lane, voxels + i[lane] + j[lane] * grid_.stride_j + k[lane] * grid_.stride_k, next_j,
                   next_k);
     }
-    F row[4];
-    for (int r = 0; r < 4; ++r) {
-      F lower, upper;
-      pairs.get(kF, r, lower, upper);
-      row[r] = hn::Add(lower, hn::Mul(fraction[0], hn::Sub(upper, lower)));
-    }
-    const F v0 = hn::Add(row[0], hn::Mul(fraction[1], hn::Sub(row[1], row[0])));
-    const F v1 = hn::Add(row[2], hn::Mul(fraction[1], hn::Sub(row[3], row[2])));
-    return hn::Add(v0, hn::Mul(fraction[2], hn::Sub(v1, v0)));
+    return pairs.interpolate(kF, fraction);
   }
 
   /// classify_mu_t.
   F extinction(MaskF where, F value) const {
-    const F at = hn::Mul(hn::Sub(value, hn::Set(kF, transfer_.bucket_origin)),
-                         hn::Set(kF, transfer_.buckets_per_unit));
-    const F last = hn::Set(kF, static_cast<float>(transfer_.bucket_count - 1));
-    const F inside = hn::IfThenElseZero(hn::Gt(at, hn::Zero(kF)), at);  // 0 for NaN
-    const I bucket = hn::ConvertTo(kI, hn::Min(inside, last));
-    const I found = hn::GatherIndex(kI, transfer_.bucket_piece, bucket);
-    const F split = hn::GatherIndex(kF, transfer_.bucket_split, bucket);
-    const I one = hn::Set(kI, 1);
-    const auto crowded = hn::Lt(found, hn::Zero(kI));
-    I piece = hn::IfThenElse(crowded, hn::Not(found), found);
-    piece = hn::Add(piece, hn::IfThenElseZero(to_i(hn::Ge(value, split)), one));
+    const I word = hn::ShiftLeft<2>(vector_find_piece(kF, transfer_, to_i(where), value));
     const auto* table = &transfer_.extinction->start;
-    auto unsure = hn::And(to_i(where), crowded);
-    while (!hn::AllFalse(kI, unsure)) {
-      const F next = hn::GatherIndex(kF, table + 4, hn::ShiftLeft<2>(piece));
-      unsure = hn::And(unsure, to_i(hn::Ge(value, next)));
-      piece = hn::Add(piece, hn::IfThenElseZero(unsure, one));
-    }
-    const I word = hn::ShiftLeft<2>(piece);
     const F anchor = hn::GatherIndex(kF, table + 1, word), mu_0 = hn::GatherIndex(kF, table + 2, word);
     const F slope = hn::GatherIndex(kF, table + 3, word);
     const F mu_t = hn::Add(mu_0, hn::Mul(slope, hn::Sub(value, anchor)));
