@@ -58,8 +58,8 @@ UnitPair CameraPath::draw(UnitPair first) noexcept {
 }
 
 /// From the last scattering in the direction drawn there.
-TrackRay CameraPath::scattered_ray(const SceneView& scene) const noexcept {
-  TrackRay ray = visible_part(scene, origin_world_, direction_world_, kInfinity, !scene.clip_blocks_light);
+TrackRay CameraPath::turned_ray() const noexcept {
+  TrackRay ray = turn_ray_;
   if (depth_ == 1) {
     ray.u_collision = first_.u_next_collision;
     ray.u_depth = first_.u_next_depth;
@@ -68,7 +68,7 @@ TrackRay CameraPath::scattered_ray(const SceneView& scene) const noexcept {
 }
 
 CameraPath::Wait CameraPath::fly(const SceneView& scene) noexcept {
-  ray_ = scattered_ray(scene);
+  ray_ = turned_ray();
   return enters() ? Wait::kFlight : end_flight(scene, {});
 }
 
@@ -127,11 +127,13 @@ CameraPath::Wait CameraPath::end_scattering(const SceneView& scene, const Scatte
 
   choice_ = scattering.choice;
   turn_ = scattering.turn;
+  turn_ray_ = scattering.turn_ray;
+  meets_rect_ = scattering.turn_meets_rect;
   ++counters.scatterings;
   radiance_ += throughput_ * point_.albedo * scene.ambient;
   if (!query_.samples_light) return turn(scene, counters);
   --light_samples_left_;
-  if (cast(scene, scattering.light, scattering.toward_light, counters)) {
+  if (cast(scene, scattering.light, scattering.toward_light, scattering.light_ray, counters)) {
     if (depth_ == 0) ray_.u_depth = first_.u_shadow_depth;
     if (enters()) return Wait::kTransmittance;
     radiance_ += unshadowed_;
@@ -143,8 +145,9 @@ CameraPath::Wait CameraPath::end_scattering(const SceneView& scene, const Scatte
 Vec3f CameraPath::met_emitters(const SceneView& scene, const Collision& collision) const noexcept {
   Vec3f met(0);
   if (scene.light_sampling == LightSampling::kLight) return met;
-  visit_rect_hits(scene.lights, origin_world_, direction_world_, collision.t_mm,
-                  [&](const LightHit& hit) { met += weighted(scene, hit); });
+  if (meets_rect_)
+    visit_rect_hits(scene.lights, origin_world_, direction_world_, collision.t_mm,
+                    [&](const LightHit& hit) { met += weighted(scene, hit); });
   if (!collision.real) met += weighted(scene, environment_hit(scene.lights, direction_world_));
   return met;
 }
@@ -178,7 +181,7 @@ Vec3f CameraPath::background(const SceneView& scene) noexcept {
 /// Next-event estimation: light from a sampled emitter, scattered back along the path. False: there is none,
 /// else what remains is its shadow.
 bool CameraPath::cast(const SceneView& scene, const LightSample& light, const ScatterValue& scattered,
-                      TraceCounters& counters) noexcept {
+                      const TrackRay& ray, TraceCounters& counters) noexcept {
   if (!(light.pdf > 0) || !(max_component(scattered.value * light.radiance) > 0)) return false;
   const float pdf = light.pdf * static_cast<float>(light_samples(scene));
   const float weight = light.delta || scene.light_sampling == LightSampling::kLight
@@ -187,7 +190,7 @@ bool CameraPath::cast(const SceneView& scene, const LightSample& light, const Sc
   unshadowed_ = throughput_ * scattered.value * light.radiance * (weight / pdf);
   if (!casts_shadow_ray(scene)) return false;
   ++counters.shadow_rays;
-  ray_ = visible_part(scene, p_world_, light.wi, light.distance_mm, !scene.clip_blocks_light);
+  ray_ = ray;
   return true;
 }
 
@@ -198,7 +201,9 @@ CameraPath::Wait CameraPath::next_light_sample(const SceneView& scene, TraceCoun
     const auto stratum = static_cast<float>(light_samples_left_--);
     const float u0 = rng_.next(), u1 = rng_.next();
     const LightSample light = sample_light(scene.lights, p_world_, (stratum + query_.u_pick) / count, u0, u1);
-    if (!cast(scene, light, eval_scatter(point_, choice_, -direction_world_, light.wi), counters)) continue;
+    const TrackRay ray = ray_from(scene, query_.p_index, p_world_, light.wi, light.distance_mm);
+    if (!cast(scene, light, eval_scatter(point_, choice_, -direction_world_, light.wi), ray, counters))
+      continue;
     if (enters()) return Wait::kTransmittance;
     radiance_ += unshadowed_;
   }
@@ -251,13 +256,10 @@ CameraPath::Wait CameraPath::turn(const SceneView& scene, TraceCounters& counter
 /// After the last scattering it does not matter where a flight ends, but what reaches it: an estimate of the
 /// transmittance tells with less variance.
 CameraPath::Wait CameraPath::reach_lights(const SceneView& scene, TraceCounters& counters) noexcept {
-  bool meets_rect = false;  // at its own distance, which takes a flight
-  visit_rect_hits(scene.lights, origin_world_, direction_world_, kInfinity,
-                  [&](const LightHit&) { meets_rect = true; });
-  if (meets_rect) return fly(scene);
+  if (meets_rect_) return fly(scene);  // light at its own distance takes a flight
   unshadowed_ = weighted(scene, environment_hit(scene.lights, direction_world_));
   if (!(max_component(unshadowed_) > 0)) return end();
-  ray_ = scattered_ray(scene);
+  ray_ = turned_ray();
   return enters() ? Wait::kTransmittance : end_shadow_ray(scene, 1, counters);
 }
 

@@ -50,7 +50,7 @@ class CameraPath {
     return scene.max_scatter > 0 && depth_ + 1 == scene.max_scatter;
   }
   bool enters() const noexcept { return ray_.t_near < ray_.t_far; }
-  TrackRay scattered_ray(const SceneView& scene) const noexcept;
+  TrackRay turned_ray() const noexcept;
   Wait fly(const SceneView& scene) noexcept;
   Wait end() noexcept;
   Vec3f weighted(const SceneView& scene, const LightHit& hit) const noexcept;
@@ -59,7 +59,7 @@ class CameraPath {
   void ask(const SceneView& scene, const Collision& collision) noexcept;
   Wait next_light_sample(const SceneView& scene, TraceCounters& counters) noexcept;
   bool cast(const SceneView& scene, const LightSample& light, const ScatterValue& scattered,
-            TraceCounters& counters) noexcept;
+            const TrackRay& ray, TraceCounters& counters) noexcept;
   int light_samples(const SceneView& scene) const noexcept { return depth_ == 0 ? scene.light_samples : 1; }
   float flight_share(const SceneView& scene) const noexcept;
   Wait turn(const SceneView& scene, TraceCounters& counters) noexcept;
@@ -79,6 +79,8 @@ class CameraPath {
   ScatterPoint point_{};
   ScatterChoice choice_{};
   ScatterSample turn_{};
+  TrackRay turn_ray_;
+  bool meets_rect_ = false;  ///< whether any rect light shines against it
   Vec3f p_world_;
   int light_samples_left_ = 0;
   /// Light samples taken where the present direction was drawn, over the probability of following that.

@@ -12,6 +12,7 @@
 
 #include "grid/vector_gradient-inl.h"
 #include "integrator/scattering.h"
+#include "integrator/vector_ray-inl.h"
 #include "light/vector_light-inl.h"
 #include "material/vector_scatter-inl.h"
 #include "transfer/vector_transfer-inl.h"
@@ -52,11 +53,13 @@ class ScatteringVector {
     store(x.y, a[1], v);
     store(x.z, a[2], v);
   }
+  static void store(Mask x, ScatteringBatch::Column<std::uint32_t>& a, std::size_t v) {
+    hn::Store(hn::BitCast(kU, hn::VecFromMask(kF, x)), kU, a.data() + v);
+  }
   static Vec3f one_of(const Column (&a)[3], std::size_t i) { return {a[0][i], a[1][i], a[2][i]}; }
   static void put(Vec3f x, Column (&a)[3], std::size_t i) {
     for (int c = 0; c < 3; ++c) a[c][i] = x[c];
   }
-  static bool none(Mask where) { return hn::AllFalse(kF, where); }
 
   /// Calls use(i) for the batch's columns i of the lanes in `where` that are taken.
   template <class Use>
@@ -81,6 +84,8 @@ class ScatteringVector {
       const auto toward = vector_eval_scatter(point, choice, wo, load(batch_.light_wi, v));
       store(toward.value, batch_.light_value, v);
       store(toward.pdf, batch_.light_value_pdf, v);
+      ray(load(batch_.light_wi, v), load(batch_.light_mm, v), batch_.light_direction_index, batch_.light_near,
+          batch_.light_far, v);
     }
     if (batch_.turns) {
       const auto turn = vector_sample_scatter(point, choice, wo, load(batch_.u_lobe, v),
@@ -88,7 +93,22 @@ class ScatteringVector {
       store(turn.wi, batch_.turn_wi, v);
       store(turn.value, batch_.turn_value, v);
       store(turn.pdf, batch_.turn_pdf, v);
+      ray(turn.wi, hn::Inf(kF), batch_.turn_direction_index, batch_.turn_near, batch_.turn_far, v);
+      store(vector_meets_rect_light(scene_.lights, load(batch_.p_world, v), turn.wi), batch_.turn_meets_rect,
+            v);
     }
+  }
+
+  /// ray_from.
+  void ray(const V3& direction, F t_max, Column (&direction_index)[3], Column& near, Column& far,
+           std::size_t v) {
+    const V3 index = mapped_vector(scene_.medium.grid.index_from_world, direction);
+    F t_near, t_far;
+    vector_visible_part(scene_, load(batch_.p_index, v), index, load(batch_.p_world, v), direction, t_max,
+                        !scene_.clip_blocks_light, t_near, t_far);
+    store(index, direction_index, v);
+    store(t_near, near, v);
+    store(t_far, far, v);
   }
 
   /// classify of the data; also the extinction.
@@ -195,7 +215,7 @@ class ScatteringVector {
     store(sample.distance_mm, batch_.light_mm, v);
     store(sample.radiance, batch_.light_radiance, v);
     store(sample.pdf, batch_.light_pdf, v);
-    hn::Store(hn::BitCast(kU, hn::VecFromMask(kF, sample.delta)), kU, batch_.light_delta.data() + v);
+    store(sample.delta, batch_.light_delta, v);
     for_each(left, v, [&](std::size_t i) {
       const LightSample one = voxlume::sample_light(scene_.lights, one_of(batch_.p_world, i),
                                                     batch_.u_light[i], batch_.light0[i], batch_.light1[i]);

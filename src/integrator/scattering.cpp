@@ -19,13 +19,19 @@ Scattering scatter_at(const SceneView& scene, const ScatteringQuery& query) noex
   if (scene.scattering.shading == Shading::kExposureRender)
     point.p_brdf = query.u_surface < point.p_brdf ? 1.0f : 0.0f;
   out.choice = scatter_choice(point, query.wo);
+  const Vec3f p_world = out.matter.p_world;
   if (query.samples_light) {
-    out.light = sample_light(scene.lights, out.matter.p_world, query.u_light, query.light.u0, query.light.u1);
+    out.light = sample_light(scene.lights, p_world, query.u_light, query.light.u0, query.light.u1);
     out.toward_light = eval_scatter(point, out.choice, query.wo, out.light.wi);
+    out.light_ray = ray_from(scene, query.p_index, p_world, out.light.wi, out.light.distance_mm);
   }
-  if (query.turns)
+  if (query.turns) {
     out.turn =
         sample_scatter(point, out.choice, query.wo, query.u_lobe, query.direction.u0, query.direction.u1);
+    out.turn_ray =
+        ray_from(scene, query.p_index, p_world, out.turn.wi, std::numeric_limits<float>::infinity());
+    out.turn_meets_rect = meets_rect_light(scene.lights, p_world, out.turn.wi);
+  }
   return out;
 }
 
@@ -50,12 +56,18 @@ void ScatteringBatch::add(const ScatteringQuery& query) noexcept {
 Scattering ScatteringBatch::at(const SceneView& scene, int i) const noexcept {
   const auto vec = [i](const Column3& a) { return Vec3f(a[0][i], a[1][i], a[2][i]); };
   const ScatteringView& s = scene.scattering;
+  const auto ray = [&](const Column3& direction, const Column<float>& near, const Column<float>& far) {
+    return TrackRay{{vec(p_index), vec(direction)}, near[i], far[i]};
+  };
   return {{{vec(normal), p_brdf[i], vec(albedo), s.g, s.alpha, s.f0}, vec(emission), vec(p_world)},
           surface_share[i],
           {specular[i], surface[i], any[i]},
           {vec(light_wi), light_mm[i], vec(light_radiance), light_pdf[i], light_delta[i] != 0},
           {vec(light_value), light_value_pdf[i]},
-          {vec(turn_wi), vec(turn_value), turn_pdf[i]}};
+          ray(light_direction_index, light_near, light_far),
+          {vec(turn_wi), vec(turn_value), turn_pdf[i]},
+          ray(turn_direction_index, turn_near, turn_far),
+          turn_meets_rect[i] != 0};
 }
 
 FillScatterings vector_scatterings(SimdTarget target) {

@@ -29,8 +29,18 @@ struct Scattering {
   ScatterChoice choice;
   LightSample light;
   ScatterValue toward_light;
+  TrackRay light_ray;
   ScatterSample turn;
+  TrackRay turn_ray;
+  bool turn_meets_rect;  ///< whether any rect light shines against it
 };
+
+/// The ray from a point of the volume, given in both spaces, up to t_max [mm].
+inline TrackRay ray_from(const SceneView& scene, Vec3f p_index, Vec3f p_world, Vec3f direction_world,
+                         float t_max) noexcept {
+  const IndexRay ray{p_index, scene.medium.grid.index_from_world.vector(direction_world)};
+  return visible_part(scene, ray, p_world, direction_world, t_max, !scene.clip_blocks_light);
+}
 
 Scattering scatter_at(const SceneView& scene, const ScatteringQuery& query) noexcept;
 
@@ -56,6 +66,9 @@ struct alignas(64) ScatteringBatch {
   alignas(64) Column<std::uint32_t> light_delta{};  ///< 0 or not
   alignas(64) Column3 turn_wi{}, turn_value{};
   alignas(64) Column<float> turn_pdf{};
+  alignas(64) Column<std::uint32_t> turn_meets_rect{};  ///< 0 or not
+  alignas(64) Column3 light_direction_index{}, turn_direction_index{};
+  alignas(64) Column<float> light_near{}, light_far{}, turn_near{}, turn_far{};
 
   void clear() noexcept {
     count = 0;

@@ -101,4 +101,12 @@ void visit_rect_hits(const LightsView& view, Vec3f origin, Vec3f direction, floa
   }
 }
 
+/// Whether any rect light shines against the ray, however far.
+inline bool meets_rect_light(const LightsView& view, Vec3f origin, Vec3f direction) noexcept {
+  bool meets = false;
+  visit_rect_hits(view, origin, direction, std::numeric_limits<float>::infinity(),
+                  [&](const LightHit&) { meets = true; });
+  return meets;
+}
+
 }  // namespace voxlume

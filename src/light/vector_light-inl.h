@@ -42,33 +42,46 @@ VectorLightSample<F> vector_no_light() {
           broadcast<F>(Vec3f(0.0f)), zero, hn::Lt(zero, zero)};
 }
 
+/// RectFromPoint.
+template <class F>
+struct VectorRect {
+  F x0, x1, y0, y1, height;
+};
+template <class F>
+VectorRect<F> vector_rect_from_point(const Light& light, Vector3<F> p_world) {
+  const F half_width = broadcast<F>(light.half_width_mm), half_height = broadcast<F>(light.half_height_mm);
+  const Vector3<F> to_centre = broadcast<F>(light.position_mm) - p_world;
+  const F x = dot(to_centre, broadcast<F>(light.axis_x)), y = dot(to_centre, broadcast<F>(light.axis_y));
+  return {x - half_width, x + half_width, y - half_height, y + half_height,
+          hn::Neg(dot(to_centre, broadcast<F>(light.direction)))};
+}
+template <class F>
+hn::Mask<hn::DFromV<F>> vector_rect_emits_toward(const Light& light, F height) {
+  const F zero = broadcast<F>(0.0f);
+  return light.two_sided ? hn::Ne(height, zero) : hn::Gt(height, zero);
+}
+
 /// sample_rect_light where the light is far, and the lanes where it is near.
 template <class F>
 VectorLightSample<F> vector_sample_far_rect(const Light& light, Vector3<F> p_world, F u0, F u1,
                                             hn::Mask<hn::DFromV<F>>& near) {
-  const F zero = broadcast<F>(0.0f), half_width = broadcast<F>(light.half_width_mm),
-          half_height = broadcast<F>(light.half_height_mm);
-  const Vector3<F> axis_x = broadcast<F>(light.axis_x), axis_y = broadcast<F>(light.axis_y),
-                   normal = broadcast<F>(light.direction);
-  // rect_from_point
-  const Vector3<F> to_centre = broadcast<F>(light.position_mm) - p_world;
-  const F x = dot(to_centre, axis_x), y = dot(to_centre, axis_y);
-  const F x0 = x - half_width, x1 = x + half_width, y0 = y - half_height, y1 = y + half_height;
-  const F height = hn::Neg(dot(to_centre, normal));
-  const auto emits = light.two_sided ? hn::Ne(height, zero) : hn::Gt(height, zero);
+  const VectorRect<F> r = vector_rect_from_point(light, p_world);
+  const auto emits = vector_rect_emits_toward(light, r.height);
   // rect_technique
-  const Vector3<F> twice_centre{x0 + x1, y0 + y1, broadcast<F>(2.0f) * height},
-      diagonal{x1 - x0, y1 - y0, zero};
+  const Vector3<F> twice_centre{r.x0 + r.x1, r.y0 + r.y1, broadcast<F>(2.0f) * r.height},
+      diagonal{r.x1 - r.x0, r.y1 - r.y0, broadcast<F>(0.0f)};
   const auto far = hn::Gt(dot(twice_centre, twice_centre),
                           broadcast<F>(kFarHalfDiagonals * kFarHalfDiagonals) * dot(diagonal, diagonal));
   near = hn::AndNot(far, emits);
   // sample_rect and rect_pdf
-  const F qx = x0 + u0 * (x1 - x0), qy = y0 + u1 * (y1 - y0);
-  const auto outside = hn::Or(hn::Or(hn::Lt(qx, x0), hn::Gt(qx, x1)), hn::Or(hn::Lt(qy, y0), hn::Gt(qy, y1)));
-  const Vector3<F> to_light = axis_x * qx + axis_y * qy - normal * height;
+  const F qx = r.x0 + u0 * (r.x1 - r.x0), qy = r.y0 + u1 * (r.y1 - r.y0);
+  const auto outside =
+      hn::Or(hn::Or(hn::Lt(qx, r.x0), hn::Gt(qx, r.x1)), hn::Or(hn::Lt(qy, r.y0), hn::Gt(qy, r.y1)));
+  const Vector3<F> to_light = broadcast<F>(light.axis_x) * qx + broadcast<F>(light.axis_y) * qy -
+                              broadcast<F>(light.direction) * r.height;
   const F distance_mm = length(to_light);
-  const F area = (x1 - x0) * (y1 - y0);
-  const F pdf = distance_mm * distance_mm * distance_mm / (hn::Abs(height) * area);
+  const F area = (r.x1 - r.x0) * (r.y1 - r.y0);
+  const F pdf = distance_mm * distance_mm * distance_mm / (hn::Abs(r.height) * area);
   const VectorLightSample<F> none = vector_no_light<F>();
   return choose(hn::AndNot(outside, emits),
                 VectorLightSample<F>{to_light * (broadcast<F>(1.0f) / distance_mm), distance_mm,
@@ -117,6 +130,27 @@ VectorLightSample<F> vector_sample_light(const LightsView& view, Vector3<F> p_wo
     left = hn::AndNot(hn::AndNot(near, picked), left);
   }
   return out;
+}
+
+/// meets_rect_light.
+template <class F>
+hn::Mask<hn::DFromV<F>> vector_meets_rect_light(const LightsView& view, Vector3<F> origin,
+                                                Vector3<F> direction) {
+  const F zero = broadcast<F>(0.0f), infinity = broadcast<F>(std::numeric_limits<float>::infinity());
+  auto meets = hn::Lt(zero, zero);
+  for (int i = 0; i < view.rect_count; ++i) {
+    const Light& light = view.lights[i];
+    const Vector3<F> axis_x = broadcast<F>(light.axis_x), axis_y = broadcast<F>(light.axis_y),
+                     normal = broadcast<F>(light.direction);
+    const VectorRect<F> r = vector_rect_from_point(light, origin);
+    const F t = hn::Neg(r.height) / dot(direction, normal);
+    const F x = t * dot(direction, axis_x), y = t * dot(direction, axis_y);
+    const auto ahead = hn::And(hn::Gt(t, zero), hn::Lt(t, infinity));
+    const auto beside =
+        hn::Or(hn::Or(hn::Lt(x, r.x0), hn::Gt(x, r.x1)), hn::Or(hn::Lt(y, r.y0), hn::Gt(y, r.y1)));
+    meets = hn::Or(meets, hn::AndNot(beside, hn::And(ahead, vector_rect_emits_toward(light, r.height))));
+  }
+  return meets;
 }
 
 }  // namespace HWY_NAMESPACE

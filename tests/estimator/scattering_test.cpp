@@ -30,6 +30,15 @@ ScatteringQuery random_query(const SceneView& scene, Rng& rng) {
   return query;
 }
 
+void expect_same(const TrackRay& a, const TrackRay& b) {
+  ASSERT_EQ(a.t_near < a.t_far, b.t_near < b.t_far);
+  if (!(a.t_near < a.t_far)) return;
+  ASSERT_EQ(a.ray.origin_index, b.ray.origin_index);
+  ASSERT_EQ(a.ray.direction_index, b.ray.direction_index);
+  ASSERT_EQ(a.t_near, b.t_near);
+  ASSERT_EQ(a.t_far, b.t_far);
+}
+
 void expect_same(const Scattering& a, const Scattering& b) {
   ASSERT_EQ(a.matter.p_world, b.matter.p_world);
   ASSERT_EQ(a.matter.emission, b.matter.emission);
@@ -50,6 +59,9 @@ void expect_same(const Scattering& a, const Scattering& b) {
   ASSERT_EQ(a.turn.wi, b.turn.wi);
   ASSERT_EQ(a.turn.value, b.turn.value);
   ASSERT_EQ(a.turn.pdf, b.turn.pdf);
+  ASSERT_EQ(a.turn_meets_rect, b.turn_meets_rect);
+  expect_same(a.light_ray, b.light_ray);
+  expect_same(a.turn_ray, b.turn_ray);
 }
 
 /// Every instruction set, over batches full and not.
