@@ -6,6 +6,7 @@
 #define VOXLUME_TRACKING_VECTOR_TRACKER_INL_H_
 #endif
 
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <bit>
@@ -158,7 +159,7 @@ class LaneTracker {
       store_where(where_f, inverse, lanes_.inverse[a], v);
       store_where(to_i(where_f), cell[a], lanes_.next_cell[a], v);
     }
-    fetch_next_word(where_f, cell, v);
+    prefetch_next_word(where_f, cell, v);
     store_where(where_f, length, lanes_.length_mm, v);
     // collision_threshold; shadow rays have one to begin with.
     const MaskF flight = hn::And(where_f, to_f(hn::Eq(load(lanes_.is_shadow, v), hn::Zero(kU))));
@@ -175,13 +176,18 @@ class LaneTracker {
     set_state(where, Lanes::kCross, v);
   }
 
-  /// Fetches the words of the next cells well before they are needed.
-  void fetch_next_word(MaskF where, const I (&cell)[3], std::size_t v) {
+  /// Notes where the words of the next cells are, and has them fetched well before they are needed: a gather
+  /// would wait for them.
+  void prefetch_next_word(MaskF where, const I (&cell)[3], std::size_t v) {
     const I at = hn::Add(hn::Add(hn::Mul(cell[2], hn::Set(kI, hierarchy_.stride_k)),
                                  hn::Mul(cell[1], hn::Set(kI, hierarchy_.stride_j))),
                          cell[0]);
-    const U word = hn::GatherIndex(kU, hierarchy_.words, hn::IfThenElseZero(to_i(where), at));
-    store_where(to_u(where), word, lanes_.next_word, v);
+    store_where(to_i(where), at, lanes_.next_word_at, v);
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(kF, where, bytes);
+    for (std::uint32_t bits = bytes[0] | bytes[1] << 8; bits; bits &= bits - 1)
+      hwy::Prefetch(hierarchy_.words +
+                    lanes_.next_word_at[v + static_cast<std::size_t>(std::countr_zero(bits))]);
   }
 
   /// Leaves the block that a lane is in and enters the next: HierarchyWalk::next.
@@ -197,7 +203,9 @@ class LaneTracker {
 
     const I cell[3] = {load(lanes_.next_cell[0], v), load(lanes_.next_cell[1], v),
                        load(lanes_.next_cell[2], v)};
-    const U word = load(lanes_.next_word, v);
+    const U word =
+        hn::GatherIndex(kU, hierarchy_.words,
+                        hn::IfThenElseZero(to_i(hn::AndNot(ends, where_f)), load(lanes_.next_word_at, v)));
     const U level = hn::And(word, hn::Set(kU, kLevelMask));
     const F mu_maj = hn::Mul(majorant(word), load(lanes_.rate, v));
     const I size = hn::BitCast(kI, hn::Shl(hn::Set(kU, 1), level)), mask = hn::Neg(size);
@@ -230,7 +238,7 @@ class LaneTracker {
       store_where(to_i(where_f), next[a], lanes_.next_cell[a], v);
       store_where(to_i(where_f), first[a], lanes_.cell[a], v);
     }
-    fetch_next_word(hn::And(where_f, hn::Lt(exit, length)), next, v);
+    prefetch_next_word(hn::And(where_f, hn::Lt(exit, length)), next, v);
     const F entered = hn::Div(tau, mu_maj);
     const MaskF collides = hn::AndNot(ends, hn::Lt(entered, run));
     store_where(where_f, tau, lanes_.tau, v);
