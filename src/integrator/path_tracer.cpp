@@ -37,11 +37,11 @@ class LaneTracer {
 
   void trace() {
     for (int lane = 0; lane < Lanes::kCount; ++lane) start_next(lane);
-    while (busy_lanes_ > 0 || batch_.count > 0) {
-      if (busy_lanes_ > 0) track_lanes_(scene_.medium, lanes_);
+    while (busy_lanes_ > 0) {
+      track_lanes_(scene_.medium, lanes_);
       for (int lane = 0; lane < Lanes::kCount; ++lane)
         if (lanes_.state[lane] == Lanes::kDone) resume(lane);
-      if (busy_lanes_ == 0) drain();
+      if (next_job_ == results_.size()) drain();
     }
   }
 
@@ -152,10 +152,11 @@ class LaneTracer {
     batch_.clear();
   }
 
-  /// When all lanes are idle: what still waits goes on.
+  /// When no new path can fill the batch or a lane: what waits goes on.
   void drain() {
     shade();
-    for (int lane = 0; lane < Lanes::kCount && ready_count_ > 0; ++lane) start_next(lane);
+    for (int lane = 0; lane < Lanes::kCount && ready_count_ > 0; ++lane)
+      if (lanes_.state[lane] == Lanes::kIdle) start_next(lane);
   }
 
   const SceneView& scene_;
