@@ -39,8 +39,7 @@ class LaneTracer {
     for (int lane = 0; lane < Lanes::kCount; ++lane) start_next(lane);
     while (busy_lanes_ > 0) {
       track_lanes_(scene_.medium, lanes_);
-      for (int lane = 0; lane < Lanes::kCount; ++lane)
-        if (lanes_.state[lane] == Lanes::kDone) resume(lane);
+      resume_done();
       if (next_job_ == results_.size()) drain();
     }
   }
@@ -106,6 +105,16 @@ class LaneTracer {
     ++busy_lanes_;
     path_of_[lane] = path;
     lanes_.put(lane, paths_[path].ray(), wait == Wait::kTransmittance, paths_[path].rng());
+  }
+
+  /// Finds the lanes that are done before it resumes any: without branches that mispredict.
+  void resume_done() {
+    int done[Lanes::kCount], count = 0;
+    for (int lane = 0; lane < Lanes::kCount; ++lane) {
+      done[count] = lane;
+      count += lanes_.state[lane] == Lanes::kDone ? 1 : 0;
+    }
+    for (int i = 0; i < count; ++i) resume(done[i]);
   }
 
   /// Takes what the tracker found and gives the lane its next ray.
