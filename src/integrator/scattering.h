@@ -42,6 +42,7 @@ inline TrackRay ray_from(const SceneView& scene, Vec3f p_index, Vec3f p_world, V
   return visible_part(scene, ray, p_world, direction_world, t_max, !scene.clip_blocks_light);
 }
 
+/// Finds what is at a collision and draws what the query asks for, from its numbers.
 Scattering scatter_at(const SceneView& scene, const ScatteringQuery& query) noexcept;
 
 /// Many scatterings, a column of every array each.
