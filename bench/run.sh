@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# Builds and runs the benchmarks; JSON into out/bench/, named after the time. [ROUNDS]
+# Builds and runs the benchmarks; JSON into out/bench/, named after the time: TIME.json, and TIME-denoise.json
+# for the denoisers. [ROUNDS]
 set -euo pipefail
 cd "$(dirname "$0")/.."
-ninja -C build/release voxlume_bench >&2
+ninja -C build/release voxlume_bench voxlume_denoise_speed >&2
 mkdir -p out/bench
 out=out/bench/$(date +%Y%m%d-%H%M%S).json
 build/release/bench/voxlume_bench bench/scenes "${1:-5}" > "$out.part"
@@ -13,5 +14,6 @@ data = json.load(open(sys.argv[1])); data = {"machine": sys.argv[3], **data}
 json.dump(data, open(sys.argv[2], "w"), indent=2)
 P
 rm -f "$out.part"
-cat "$out"
+build/release/bench/voxlume_denoise_speed "${1:-5}" > "${out%.json}-denoise.json"
+cat "$out" "${out%.json}-denoise.json"
 echo "bench: $out" >&2

@@ -25,3 +25,9 @@ picture clip $ct --preset ct-muscle-bone --clip :,:,:10 --camera 20,50,1.4
 picture environment $ct --preset ct-skin --env data/env/sunset.exr --background env --camera 25,5,1.4
 if [ "$out" = docs/pictures ]; then size=720x480; fi
 picture hero $ct --preset ct-muscle-bone --camera 35,12,1.5
+if [ "$out" = docs/pictures ]; then  # docs/metrics.md
+  few=$(mktemp --suffix .png)
+  trap 'rm -f "$few"' EXIT
+  build/release/voxlume render $ct -o "$few" --size 340x340 --spp 4 --seed 5 --preset ct-muscle-bone --camera 25,10,1.4
+  build/release/voxlume compare "$few" "$out/ct-muscle-bone.png" --metric flip --error-map "$out/flip.png" --error-map-kind flip
+fi

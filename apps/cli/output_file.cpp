@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include "base/file_extension.h"
 #include "scene/field_info.h"
 #include "voxlume/error.h"
 
@@ -10,12 +11,12 @@ namespace voxlume::cli {
 namespace fs = std::filesystem;
 
 PictureFormat picture_format(const fs::path& path, const std::string& flag) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string extension = lower_extension(path);
   if (extension == ".png") return PictureFormat::kPng;
   if (extension == ".exr") return PictureFormat::kExr;
   throw Error(ErrorCode::kUnsupported, flag,
-              "found " + quote_text(path.string()) + ", expected a name ending in .png or .exr");
+              "found " + quote_text(path.string()) +
+                  ", expected a name ending in .png or .exr (or .mp4 or .webm, for an animation)");
 }
 
 void check_writable(const fs::path& path, const std::string& flag) {

@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
-#include <filesystem>
 #include <iterator>
 
+#include "base/file_extension.h"
 #include "scene/field_types.h"
 #include "scene/scene_file.h"
 #include "voxlume/error.h"
@@ -20,7 +19,7 @@ using Apply = void (*)(SceneDescription& scene, const std::string& text, const s
 /// A flag and the field it sets. Its help is the field's own unless `help` says more.
 struct Row {
   const char* flag;
-  const char* value;    ///< what the help calls its value; nullptr for flags without one
+  const char* value;    ///< what the help calls its value, "[...]" if it may be left out; nullptr: has none
   const char* address;  ///< field set, or that explains it
   const char* help = nullptr;
   Apply apply = nullptr;  ///< nullptr: set_scene_field(address)
@@ -130,6 +129,12 @@ void apply_visibility_lights(SceneDescription&, const std::string& text, const s
   throw Error(ErrorCode::kUnsupported, flag, text + " is not built yet; available: off");
 }
 
+void apply_turntable(SceneDescription& scene, const std::string& text, const std::string& flag) {
+  set_scene_field(scene, "/animation/turntable", "{}", flag);
+  scene.animation->frames.reset();  // as many as it takes
+  if (!text.empty()) set_scene_field(scene, "/animation/turntable/seconds", text, flag);
+}
+
 void not_built(SceneDescription&, const std::string&, const std::string&) {
   throw Error(ErrorCode::kUnsupported, "", "is not built yet");
 }
@@ -177,7 +182,9 @@ constexpr Row kRows[] = {
     {"--important", "RANGE", "/render", "Not built yet", not_built},
     {"--visibility", "P,Q,R,LAMBDA", "/render", "Not built yet", not_built},
     {"--visibility-lights", "NAME", "/render", "off (first, all: not built yet)", apply_visibility_lights},
-    {"--turntable", "N", "/camera", "Not built yet", not_built},
+    {"--turntable", "[SECONDS]", "/animation/turntable", "Camera once around its target, in 6 s unless given",
+     apply_turntable},
+    {"--fps", "N", "/animation/fps"},
 };
 
 void apply_setting(SceneDescription& scene, const std::string& setting) {
@@ -206,14 +213,14 @@ void SceneFlags::add(CLI::App& command, std::size_t index) {
         help);
     return;
   }
-  command
-      .add_option_function<std::string>(
-          row.flag,
-          [this, index](const std::string& text) {
-            given_.push_back({index, text});
-          },
-          help)
-      ->type_name(row.value);
+  CLI::Option* const option = command.add_option_function<std::string>(
+      row.flag,
+      [this, index](const std::string& text) {
+        given_.push_back({index, text});
+      },
+      help);
+  option->type_name(row.value);
+  if (*row.value == '[') option->expected(0, 1);
 }
 
 void SceneFlags::add_volume_flags_to(CLI::App& command) {
@@ -260,11 +267,7 @@ void SceneFlags::apply(SceneDescription& scene) const {
 
 namespace {
 
-bool is_scene_file(const std::string& input) {
-  std::string extension = std::filesystem::path(input).extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension == ".json";
-}
+bool is_scene_file(const std::string& input) { return lower_extension(input) == ".json"; }
 
 /// Whether `where` is the address of a field, and not an absolute path.
 bool is_scene_address(const std::string& where) {

@@ -40,6 +40,13 @@ std::string progress_text(const RenderProgress& progress, const StopRule& stop) 
   return text;
 }
 
+std::string progress_text(const SequenceProgress& progress) {
+  std::string text = fmt::format("frame {}/{}", progress.position, progress.count);
+  if (progress.s_per_frame) text += fmt::format(", {:.3g} s/frame", *progress.s_per_frame);
+  if (progress.remaining_s) text += ", " + duration_text(*progress.remaining_s) + " left";
+  return text;
+}
+
 void print_warnings(const std::vector<std::string>& warnings) {
   for (std::string line : warnings) {
     std::replace_if(

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "render/sequence.h"
 #include "voxlume/renderer.h"
 
 namespace voxlume::cli {
@@ -25,6 +26,9 @@ class ProgressLine {
 
 /// "64 of 128 spp, 1.25 M paths/s, 12 s left".
 std::string progress_text(const RenderProgress& progress, const StopRule& stop);
+
+/// "frame 12/120, 3.1 s/frame, 5 min 35 s left".
+std::string progress_text(const SequenceProgress& progress);
 
 /// Writes "warning: ..." lines to standard error.
 void print_warnings(const std::vector<std::string>& warnings);

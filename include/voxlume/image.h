@@ -29,7 +29,8 @@ struct ImageLayer {
 /// The first scattering of depth, normal and albedo is that of the camera path; zero where nothing scattered.
 ///
 /// Metadata that voxlume writes (EXR attributes, PNG text): "voxlume:scene" (the scene as JSON),
-/// "voxlume:seed", "voxlume:version".
+/// "voxlume:seed", "voxlume:version", "voxlume:camera" (docs/animation.md); of frames of an animation also
+/// "voxlume:frame", "voxlume:time_s" and "voxlume:digest" (differs whenever scene, settings or volume do).
 struct Image {
   int width = 0, height = 0;
   std::vector<float> rgba;  ///< width * height * 4, row by row from the top

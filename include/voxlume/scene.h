@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace voxlume {
@@ -130,6 +131,8 @@ struct CameraDescription {
   std::optional<double> focus_mm;    ///< distance of the sharp plane from the eye; default the target's
   /// Blur of the environment behind the volume, as the half angle of its own large lens (xu2024 6.1); [0, 45]
   double background_blur_deg = 0;
+  /// Radius of the sphere that zoom 1 fits, > 0; default that of what is visible
+  std::optional<double> fit_radius_mm;
   friend bool operator==(const CameraDescription&, const CameraDescription&) = default;
 };
 
@@ -189,6 +192,45 @@ struct RenderDescription {
   friend bool operator==(const RenderDescription&, const RenderDescription&) = default;
 };
 
+/// A field's value as a scene file writes it: a number, true or false, a word or "#rrggbb", a list of numbers
+/// (of a colour: sRGB), a linear colour, the points of a transfer function.
+using FieldValue =
+    std::variant<double, bool, std::string, std::vector<double>, Color, std::vector<TransferPoint>>;
+
+/// The value of a field at a time. In files [time_s, value].
+struct AnimationKey {
+  double time_s = 0;
+  FieldValue value;
+  friend bool operator==(const AnimationKey&, const AnimationKey&) = default;
+};
+
+/// Smooth: a monotone cubic through the keys that starts and ends at rest. Words and switches always step.
+enum class Interpolation { kLinear, kSmooth, kStep };
+
+/// The course of one field. Before the first key and after the last it stands still.
+struct AnimationTrack {
+  std::string field;  ///< its JSON pointer, "/camera/azimuth_deg" or "/lights/0/position_mm"
+  Interpolation interpolation = Interpolation::kLinear;
+  std::vector<AnimationKey> keys;  ///< at least one, sorted by time; of two at one time the later one holds
+  friend bool operator==(const AnimationTrack&, const AnimationTrack&) = default;
+};
+
+/// The camera's way around its target, on top of what the tracks say.
+struct TurntableDescription {
+  double seconds = 6;  ///< of all turns together; > 0
+  double turns = 1;    ///< negative goes toward the patient's right
+  friend bool operator==(const TurntableDescription&, const TurntableDescription&) = default;
+};
+
+/// What changes from frame to frame. Frame k shows the time k / fps.
+struct AnimationDescription {
+  double fps = 30;            ///< frames a second; > 0
+  std::optional<int> frames;  ///< absent: the turntable's seconds, else up to and with the last key
+  std::optional<TurntableDescription> turntable;
+  std::vector<AnimationTrack> tracks;
+  friend bool operator==(const AnimationDescription&, const AnimationDescription&) = default;
+};
+
 constexpr int kSceneVersion = 1;
 
 struct SceneDescription {
@@ -204,6 +246,7 @@ struct SceneDescription {
   std::optional<ClipDescription> clip;
   ImageDescription image;
   RenderDescription render;
+  std::optional<AnimationDescription> animation;  ///< absent: a still picture
   friend bool operator==(const SceneDescription&, const SceneDescription&) = default;
 };
 

@@ -46,6 +46,7 @@ void validate(const CameraDescription& d) {
   require_between(d.aperture_radius_mm, 0, kMaxLength_mm, "aperture_radius_mm");
   if (d.height_mm) require_positive(*d.height_mm, "height_mm");
   if (d.focus_mm) require_positive(*d.focus_mm, "focus_mm");
+  if (d.fit_radius_mm) require_positive(*d.fit_radius_mm, "fit_radius_mm");
   require_between(d.background_blur_deg, 0, 45, "background_blur_deg");
 }
 
@@ -89,7 +90,8 @@ CameraView compile_camera(const CameraDescription& d, Vec3f center_mm, float rad
   const Vec3d center(center_mm);
   const Vec3d target = d.target_mm ? checked(*d.target_mm, "target_mm") : center;
 
-  const double fit_distance = radius_mm / (std::sin(std::atan(tan_half * smaller)) * d.zoom);
+  const double fit_radius = d.fit_radius_mm.value_or(radius_mm);
+  const double fit_distance = fit_radius / (std::sin(std::atan(tan_half * smaller)) * d.zoom);
   const double outside = 2.0 * radius_mm + length(target - center);
   const Pose pose =
       d.eye_mm ? place_at_eye(d, target) : orbit(d, target, orthographic ? outside : fit_distance);
@@ -100,7 +102,7 @@ CameraView compile_camera(const CameraDescription& d, Vec3f center_mm, float rad
   const Vec3d right_level = normalize(cross(pose.forward, pose.up));
   const Vec3d up_level = cross(right_level, pose.forward);
   const double roll = d.roll_deg * kRadiansPerDegree;
-  const double half_height_mm = 0.5 * (d.height_mm ? *d.height_mm : 2.0 * radius_mm / smaller / d.zoom);
+  const double half_height_mm = 0.5 * (d.height_mm ? *d.height_mm : 2.0 * fit_radius / smaller / d.zoom);
   const double half_height = orthographic ? half_height_mm : tan_half;
 
   CameraView out;

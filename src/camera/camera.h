@@ -33,9 +33,10 @@ struct PixelPosition {
   float depth_mm;
 };
 
-/// Frames the sphere (`center_mm`, `radius_mm` > 0) for an image of width x height pixels (>= 1).
-/// Without eye_mm a perspective eye is at radius / (sin(half the angle of the smaller image side) * zoom)
-/// from the target; an orthographic one is outside the sphere and zoom divides the view's height. Roll turns
+/// Frames the sphere (`center_mm`, `radius_mm` > 0) for an image of width x height pixels (>= 1), or one of
+/// the description's fit_radius_mm. Without eye_mm a perspective eye is at radius / (sin(half the angle of
+/// the smaller image side) * zoom) from the target; an orthographic one is outside the sphere given and zoom
+/// divides the view's height. Roll turns
 /// the camera clockwise as seen from behind it, so that the picture turns counter-clockwise. Throws
 /// kBadParameter at "/camera/NAME".
 CameraView compile_camera(const CameraDescription& description, Vec3f center_mm, float radius_mm, int width,

@@ -40,6 +40,7 @@ Film::Film(int width, int height, FilmLayers layers) : width_(width), height_(he
     if (layers.depth) depths_.resize(pixels);
     if (layers.normal) normals_.resize(pixels);
     if (layers.albedo) albedos_.resize(pixels);
+    if (layers.classes) classes_.resize(pixels);
   } catch (const std::bad_alloc&) {
     throw Error(ErrorCode::kOutOfMemory, "",
                 "a picture of " + size_text() + " needs " +
@@ -143,12 +144,18 @@ std::uint64_t Film::total_samples() const noexcept {
 
 std::size_t Film::bytes_per_pixel(FilmLayers layers) noexcept {
   return sizeof(Sums) + sizeof(std::uint32_t) + (layers.depth ? sizeof(double) : 0) +
-         (layers.normal ? sizeof(Vec3d) : 0) + (layers.albedo ? sizeof(Vec3d) : 0);
+         (layers.normal ? sizeof(Vec3d) : 0) + (layers.albedo ? sizeof(Vec3d) : 0) +
+         (layers.classes ? sizeof(PixelClasses) : 0);
 }
 
 std::vector<std::span<const std::byte>> Film::accumulators() const {
-  return {bytes_of(sums_),    bytes_of(counts_),  bytes_of(depths_),
-          bytes_of(normals_), bytes_of(albedos_), std::as_bytes(std::span(&nonfinite_samples_, 1))};
+  return {bytes_of(sums_),
+          bytes_of(counts_),
+          bytes_of(depths_),
+          bytes_of(normals_),
+          bytes_of(albedos_),
+          bytes_of(classes_),
+          std::as_bytes(std::span(&nonfinite_samples_, 1))};
 }
 
 std::vector<std::span<std::byte>> Film::accumulators() {

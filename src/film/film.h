@@ -18,9 +18,39 @@ struct PixelSample {
   float depth_mm = 0;  ///< from the eye to the first scattering
 };
 
+/// What a camera sample's radiance is made of: radiance = direct_diffuse + direct_specular + later, and
+/// direct = fx fl by channel (xu2024 eq. 8), where fl is what shadows and the choice of light make noisy.
+/// Zeros for a sample that did not scatter.
+struct RadianceParts {
+  /// How the first scattering would look without shadows (integrator/unshadowed.h): of high detail and little
+  /// noise. The phase function belongs to the diffuse part.
+  Vec3f fx_diffuse{}, fx_specular{};
+  /// Light that the first scattering scatters to the eye. Zero in a channel without fx.
+  Vec3f direct_diffuse{}, direct_specular{};
+  Vec3f later{};  ///< emission, ambient light, light of later scatterings, and what has no fx
+  /// Whether the extinction at the first scattering is that of matter that stands for the pixel.
+  bool dense = false;
+};
+
+/// Samples of one pixel that scattered alike at first: sums over them.
+struct ClassSums {
+  std::uint32_t count = 0;
+  Vec3f fx_diffuse{}, fx_specular{}, direct_diffuse{}, direct_specular{}, later{};
+};
+
+/// The samples of a pixel that scattered, in two classes (xu2024 section 5.1).
+struct PixelClasses {
+  Vec3d radiance{};              ///< sum over both classes
+  double luminance_squared = 0;  ///< sum over both classes
+  ClassSums classes[2];
+  float dense_depth_mm = 0;   ///< least depth of a dense sample; 0 without one
+  float median_depth_mm = 0;  ///< of the first samples that scattered and were added together
+};
+
 /// Which sums a film keeps beyond radiance, alpha and their error.
 struct FilmLayers {
   bool depth = false, normal = false, albedo = false;
+  bool classes = false;  ///< PixelClasses
   friend bool operator==(const FilmLayers&, const FilmLayers&) = default;
 };
 
@@ -35,6 +65,16 @@ class Film {
   /// Adds one sample to pixel (x, y). A radiance, normal, albedo or depth that is not finite becomes zero,
   /// and the sample is counted in nonfinite_samples(); the pixel's sample count grows all the same.
   void add(int x, int y, const PixelSample& sample) noexcept;
+
+  /// Adds samples of pixel (x, y) to its classes; they are also to be added by add(), in the same order.
+  /// The first samples that scattered are divided at the largest gap between their luminances of fx_diffuse,
+  /// where those differ by `kOneClass` at all (xu2024 section 5.1); later ones join the class whose mean is
+  /// nearer.
+  /// Samples that are not finite are left out. The film must keep classes; samples.size() == parts.size().
+  void add_classes(int x, int y, std::span<const PixelSample> samples, std::span<const RadianceParts> parts);
+  /// Luminances that differ by less are alike. xu2024 has 0.1 / sr, which is a third of all that a white
+  /// Lambert surface spans.
+  static constexpr float kOneClass = 0.1f;
 
   int width() const noexcept { return width_; }
   int height() const noexcept { return height_; }
@@ -56,6 +96,9 @@ class Film {
   Vec3d albedo(int x, int y) const noexcept;
   Vec3d normal(int x, int y) const noexcept;
   double depth_mm(int x, int y) const noexcept;
+
+  /// The classes of the samples that scattered; the film must keep them.
+  const PixelClasses& classes(int x, int y) const noexcept { return classes_[index(x, y)]; }
 
   // Of the picture.
   /// Mean over pixels of standard error / (luminance + 0.01): the quantity that `--noise` bounds. Meaningful
@@ -91,6 +134,7 @@ class Film {
   std::vector<std::uint32_t> counts_;
   std::vector<double> depths_;  // weighted by alpha, as are the next two
   std::vector<Vec3d> normals_, albedos_;
+  std::vector<PixelClasses> classes_;
   std::uint64_t nonfinite_samples_ = 0;  // written by many threads, through an atomic reference
 };
 

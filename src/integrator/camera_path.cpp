@@ -2,6 +2,9 @@
 
 #include <limits>
 
+#include "integrator/background.h"
+#include "integrator/unshadowed.h"
+
 namespace voxlume {
 namespace {
 
@@ -45,6 +48,7 @@ CameraPath::Wait CameraPath::begin(const SceneView& scene, const PrimaryRay& pri
   depth_ = 0;
   first_unshadowed_ = 0;
   out_ = {};
+  if (scene.keeps_parts) first_light_ = {};
   ++counters.paths;
   return primary.enters ? Wait::kFlight : end_flight(scene, {});
 }
@@ -78,7 +82,11 @@ CameraPath::Wait CameraPath::end() noexcept {
 }
 
 CameraPath::Wait CameraPath::end_flight(const SceneView& scene, const Collision& collision) noexcept {
-  if (depth_ > 0) radiance_ += met_emitters(scene, collision);
+  if (depth_ > 0) {
+    const Vec3f met = met_emitters(scene, collision);
+    radiance_ += throughput_ * met;
+    if (scene.keeps_parts && depth_ == 1) add_first(met * first_light_.weight);
+  }
   if (!collision.real) {
     if (depth_ == 0) radiance_ = background(scene);
     return end();
@@ -122,6 +130,8 @@ CameraPath::Wait CameraPath::end_scattering(const SceneView& scene, const Scatte
     out_.alpha = 1;
     out_.albedo = point_.albedo;
     out_.normal = point_.normal * scattering.surface_share;
+    first_light_.dense =
+        scene.keeps_parts && classify_mu_t(scene.medium.transfer, query_.value) > scene.dense_mu_t;
   }
   if (scattered_out(scene)) return end();
 
@@ -129,6 +139,8 @@ CameraPath::Wait CameraPath::end_scattering(const SceneView& scene, const Scatte
   turn_ = scattering.turn;
   turn_ray_ = scattering.turn_ray;
   meets_rect_ = scattering.turn_meets_rect;
+  if (scene.keeps_parts && depth_ == 0)
+    first_light_.fx = unshadowed_shading(scene.lights, point_, -direction_world_, p_world_);
   ++counters.scatterings;
   radiance_ += throughput_ * point_.albedo * scene.ambient;
   if (!query_.samples_light) return turn(scene, counters);
@@ -137,6 +149,7 @@ CameraPath::Wait CameraPath::end_scattering(const SceneView& scene, const Scatte
     if (depth_ == 0) ray_.u_depth = first_.u_shadow_depth;
     if (enters()) return Wait::kTransmittance;
     radiance_ += unshadowed_;
+    if (scene.keeps_parts && depth_ == 0) add_first(first_light_.arriving);
   }
   return next_light_sample(scene, counters);
 }
@@ -152,30 +165,41 @@ Vec3f CameraPath::met_emitters(const SceneView& scene, const Collision& collisio
   return met;
 }
 
-/// What a light met by a sampled direction adds, beside what light samples find of it.
+/// What a light met by a sampled direction adds to the path's throughput, beside what light samples find of
+/// it.
 Vec3f CameraPath::weighted(const SceneView& scene, const LightHit& hit) const noexcept {
   const float weight = scene.light_sampling == LightSampling::kDirection
                            ? 1.0f
                            : power_heuristic(direction_pdf_, hit.pdf * hit_samples_);
-  return throughput_ * hit.radiance * weight;
+  return hit.radiance * weight;
+}
+
+/// Adds light that arrives at the first scattering from the direction under way.
+void CameraPath::add_first(Vec3f light) noexcept {
+  first_light_.diffuse += (first_light_.now.diffuse + first_light_.now.phase) * light;
+  first_light_.specular += first_light_.now.specular * light;
+}
+
+RadianceParts CameraPath::parts() const noexcept {
+  RadianceParts parts;
+  if (!(out_.alpha > 0)) return parts;
+  parts.fx_diffuse = first_light_.fx.diffuse;
+  parts.fx_specular = first_light_.fx.specular;
+  parts.later = out_.radiance;
+  for (int c = 0; c < 3; ++c) {
+    if (parts.fx_diffuse[c] > 0) parts.direct_diffuse[c] = first_light_.diffuse[c];
+    if (parts.fx_specular[c] > 0) parts.direct_specular[c] = first_light_.specular[c];
+    parts.later[c] = std::max(parts.later[c] - parts.direct_diffuse[c] - parts.direct_specular[c], 0.0f);
+  }
+  parts.dense = first_light_.dense;
+  return parts;
 }
 
 /// What a camera ray that meets nothing sees.
 Vec3f CameraPath::background(const SceneView& scene) noexcept {
-  switch (scene.background) {
-    case BackgroundKind::kTransparent:
-      return Vec3f(0);
-    case BackgroundKind::kColor:
-      return scene.background_color;
-    case BackgroundKind::kEnvironment:
-      break;
-  }
-  Vec3f direction = direction_world_;
-  if (scene.camera.background_versine > 0) {
-    const float u0 = rng_.next(), u1 = rng_.next();
-    direction = background_direction(scene.camera, px_, py_, u0, u1);
-  }
-  return environment_hit(scene.lights, direction).radiance;
+  const bool draws = blurs_background(scene);
+  const float u0 = draws ? rng_.next() : 0.0f, u1 = draws ? rng_.next() : 0.0f;
+  return background_radiance(scene, px_, py_, direction_world_, u0, u1);
 }
 
 /// Next-event estimation: light from a sampled emitter, scattered back along the path. False: there is none,
@@ -188,7 +212,13 @@ bool CameraPath::cast(const SceneView& scene, const LightSample& light, const Sc
                            ? 1.0f
                            : power_heuristic(pdf, scattered.pdf * flight_share(scene));
   unshadowed_ = throughput_ * scattered.value * light.radiance * (weight / pdf);
-  if (!casts_shadow_ray(scene)) return false;
+  const float boost = shadow_ray_boost(scene);
+  if (!(boost > 0)) return false;
+  unshadowed_ *= boost;
+  if (scene.keeps_parts && depth_ == 0) {
+    first_light_.now = eval_scatter_parts(point_, choice_, -direction_world_, light.wi);
+    first_light_.arriving = light.radiance * (weight / pdf * boost);
+  }
   ++counters.shadow_rays;
   ray_ = ray;
   return true;
@@ -206,6 +236,7 @@ CameraPath::Wait CameraPath::next_light_sample(const SceneView& scene, TraceCoun
       continue;
     if (enters()) return Wait::kTransmittance;
     radiance_ += unshadowed_;
+    if (scene.keeps_parts && depth_ == 0) add_first(first_light_.arriving);
   }
   return turn(scene, counters);
 }
@@ -213,6 +244,8 @@ CameraPath::Wait CameraPath::next_light_sample(const SceneView& scene, TraceCoun
 CameraPath::Wait CameraPath::end_shadow_ray(const SceneView& scene, float transmittance,
                                             TraceCounters& counters) noexcept {
   radiance_ += unshadowed_ * transmittance;
+  const bool of_first = depth_ == 0 || (depth_ == 1 && scattered_out(scene));
+  if (scene.keeps_parts && of_first) add_first(first_light_.arriving * transmittance);
   return scattered_out(scene) ? end() : next_light_sample(scene, counters);
 }
 
@@ -223,17 +256,16 @@ float CameraPath::flight_share(const SceneView& scene) const noexcept {
   return scatters_last(scene) && !needed ? kLastFlightShare : 1.0f;
 }
 
-/// Russian roulette for shadow rays, in proportion to what they can add. The measure is the path's own first
-/// one, so that nothing depends on how bright the lights are.
-bool CameraPath::casts_shadow_ray(const SceneView& scene) noexcept {
-  if (!(scene.shadow_roulette > 0)) return true;
+/// Russian roulette for shadow rays, in proportion to what they can add: what a ray that is cast counts for,
+/// 0 for one that is not. The measure is the path's own first one, so that nothing depends on how bright the
+/// lights are.
+float CameraPath::shadow_ray_boost(const SceneView& scene) noexcept {
+  if (!(scene.shadow_roulette > 0)) return 1;
   const float size = max_component(unshadowed_);
   if (!(first_unshadowed_ > 0)) first_unshadowed_ = size;
   const float threshold = scene.shadow_roulette * first_unshadowed_;
-  if (!(size < threshold)) return true;
-  if (rng_.next() * threshold >= size) return false;
-  unshadowed_ *= threshold / size;
-  return true;
+  if (!(size < threshold)) return 1;
+  return rng_.next() * threshold < size ? threshold / size : 0.0f;
 }
 
 /// Turns the path at a scattering, unless it is absorbed or nothing can come of it.
@@ -243,6 +275,10 @@ CameraPath::Wait CameraPath::turn(const SceneView& scene, TraceCounters& counter
   // it is one technique of the heuristic that takes `share` samples.
   const float share = flight_share(scene);
   if (share < 1 && rng_.next() >= share) return end();
+  if (scene.keeps_parts && depth_ == 0) {
+    first_light_.now = eval_scatter_parts(point_, choice_, -direction_world_, turn_.wi);
+    first_light_.weight = 1 / (turn_.pdf * share);
+  }
   throughput_ *= turn_.value / (turn_.pdf * share);
   origin_world_ = p_world_;
   direction_world_ = turn_.wi;
@@ -257,7 +293,9 @@ CameraPath::Wait CameraPath::turn(const SceneView& scene, TraceCounters& counter
 /// transmittance tells with less variance.
 CameraPath::Wait CameraPath::reach_lights(const SceneView& scene, TraceCounters& counters) noexcept {
   if (meets_rect_) return fly(scene);  // light at its own distance takes a flight
-  unshadowed_ = weighted(scene, environment_hit(scene.lights, direction_world_));
+  const Vec3f met = weighted(scene, environment_hit(scene.lights, direction_world_));
+  unshadowed_ = throughput_ * met;
+  first_light_.arriving = met * first_light_.weight;
   if (!(max_component(unshadowed_) > 0)) return end();
   ray_ = turned_ray();
   return enters() ? Wait::kTransmittance : end_shadow_ray(scene, 1, counters);

@@ -4,6 +4,7 @@
 #include "integrator/primary_ray.h"
 #include "integrator/scattering.h"
 #include "integrator/scene_view.h"
+#include "integrator/unshadowed.h"
 #include "tracking/tracking.h"
 
 namespace voxlume {
@@ -37,6 +38,8 @@ class CameraPath {
   Rng& rng() noexcept { return rng_; }
   /// The result, once nothing is waited for.
   const PixelSample& sample() const noexcept { return out_; }
+  /// What its radiance is made of; only if the scene keeps parts.
+  RadianceParts parts() const noexcept;
 
  private:
   float draw(float first) noexcept;
@@ -57,6 +60,7 @@ class CameraPath {
   Vec3f met_emitters(const SceneView& scene, const Collision& collision) const noexcept;
   Vec3f background(const SceneView& scene) noexcept;
   void ask(const SceneView& scene, const Collision& collision) noexcept;
+  void add_first(Vec3f light) noexcept;
   Wait next_light_sample(const SceneView& scene, TraceCounters& counters) noexcept;
   bool cast(const SceneView& scene, const LightSample& light, const ScatterValue& scattered,
             const TrackRay& ray, TraceCounters& counters) noexcept;
@@ -65,7 +69,7 @@ class CameraPath {
   Wait turn(const SceneView& scene, TraceCounters& counters) noexcept;
   Wait reach_lights(const SceneView& scene, TraceCounters& counters) noexcept;
   bool survives() noexcept;
-  bool casts_shadow_ray(const SceneView& scene) noexcept;
+  float shadow_ray_boost(const SceneView& scene) noexcept;
 
   Rng rng_;
   TrackRay ray_;
@@ -89,6 +93,16 @@ class CameraPath {
   float first_unshadowed_ = 0;  ///< of the path's first shadow ray; 0 before that
   Vec3f radiance_;
   PixelSample out_;
+
+  /// Of the first scattering, for RadianceParts.
+  struct FirstLight {
+    UnshadowedShading fx;
+    Vec3f diffuse, specular;  ///< sums of h_k E_k over the techniques (xu2024 section 5.1)
+    ScatterParts now;         ///< h_k of the direction under way
+    float weight;             ///< of light met there, where a path follows it
+    Vec3f arriving;           ///< E_k of the shadow ray under way, without its transmittance
+    bool dense;
+  } first_light_{};
 };
 
 }  // namespace voxlume

@@ -13,6 +13,9 @@ namespace {
 /// Samples of a tile that are held back until they can be added in order.
 constexpr int kHeldSamples = 4096;
 
+/// As many of a pixel at least, where its samples are divided into classes by what they have in common.
+constexpr int kClassifiedTogether = 32;
+
 /// The pixels of a tile, row by row.
 std::pair<int, int> pixel_at(const TileRect& tile, int index) {
   const int width = tile.x1 - tile.x0;
@@ -25,12 +28,13 @@ std::pair<int, int> pixel_at(const TileRect& tile, int index) {
 class LaneTracer {
  public:
   LaneTracer(const SceneView& scene, const TileRect& tile, int sample_begin, int sample_end,
-             std::span<PixelSample> results, TraceCounters& counters)
+             std::span<PixelSample> results, std::span<RadianceParts> parts, TraceCounters& counters)
       : scene_(scene),
         tile_(tile),
         sample_begin_(sample_begin),
         samples_per_pixel_(sample_end - sample_begin),
         results_(results),
+        parts_(parts),
         counters_(counters) {
     for (int path = 0; path < kPaths; ++path) idle_[path] = path;
   }
@@ -93,7 +97,7 @@ class LaneTracer {
       jobs_[path] = next_job_;
       const Wait wait = paths_[path].begin(scene_, primary_ray(next_job_++), counters_);
       if (wait == Wait::kNothing) {
-        results_[jobs_[path]] = paths_[path].sample();
+        store_result(path);
       } else {
         --idle_count_;
         return put(lane, path, wait);
@@ -136,8 +140,12 @@ class LaneTracer {
     start_next(lane);
   }
 
-  void finish(int path) {
+  void store_result(int path) {
     results_[jobs_[path]] = paths_[path].sample();
+    if (!parts_.empty()) parts_[jobs_[path]] = paths_[path].parts();
+  }
+  void finish(int path) {
+    store_result(path);
     idle_[idle_count_++] = path;
   }
 
@@ -172,6 +180,7 @@ class LaneTracer {
   const TileRect tile_;
   const int sample_begin_, samples_per_pixel_;
   const std::span<PixelSample> results_;
+  const std::span<RadianceParts> parts_;
   TraceCounters& counters_;
   const VectorTracker track_lanes_ = vector_tracker(scene_.simd, scene_.medium);
   const FillPrimaryRays fill_primary_ = vector_primary_rays(scene_.simd, scene_.camera);
@@ -193,7 +202,7 @@ class LaneTracer {
 }  // namespace
 
 PixelSample trace_camera_sample(const SceneView& scene, int x, int y, std::uint32_t sample,
-                                TraceCounters& counters) noexcept {
+                                TraceCounters& counters, RadianceParts* parts) noexcept {
   using Wait = CameraPath::Wait;
   CameraPath path;
   TrackingCounters tracking;
@@ -215,34 +224,43 @@ PixelSample trace_camera_sample(const SceneView& scene, int x, int y, std::uint3
       case Wait::kNothing:
         counters.tracking_steps += tracking.steps;
         counters.majorant_violations += tracking.majorant_violations;
+        if (parts != nullptr) *parts = path.parts();
         return path.sample();
     }
 }
 
 void trace_tile(const SceneView& scene, const TileRect& tile, int sample_begin, int sample_end,
-                std::span<PixelSample> samples, TraceCounters& counters) {
+                std::span<PixelSample> samples, std::span<RadianceParts> parts, TraceCounters& counters) {
   if (scene.simd != SimdTarget::kScalar)
-    return LaneTracer(scene, tile, sample_begin, sample_end, samples, counters).trace();
+    return LaneTracer(scene, tile, sample_begin, sample_end, samples, parts, counters).trace();
   std::size_t next = 0;
   for (int pixel = 0; pixel < tile.pixel_count(); ++pixel) {
     const auto [x, y] = pixel_at(tile, pixel);
-    for (int sample = sample_begin; sample < sample_end; ++sample)
-      samples[next++] = trace_camera_sample(scene, x, y, static_cast<std::uint32_t>(sample), counters);
+    for (int sample = sample_begin; sample < sample_end; ++sample, ++next)
+      samples[next] = trace_camera_sample(scene, x, y, static_cast<std::uint32_t>(sample), counters,
+                                          parts.empty() ? nullptr : &parts[next]);
   }
 }
 
 void render_tile(const SceneView& scene, const TileRect& tile, int sample_begin, int sample_end, Film& film,
                  TraceCounters& counters) {
-  const int pixels = static_cast<int>(tile.pixel_count()), at_once = std::max(1, kHeldSamples / pixels);
-  std::vector<PixelSample> samples(static_cast<std::size_t>(pixels) *
-                                   std::max(0, std::min(at_once, sample_end - sample_begin)));
+  const auto pixels = static_cast<std::size_t>(tile.pixel_count());
+  const bool classes = film.layers().classes;
+  const int at_once =
+      std::max(classes ? kClassifiedTogether : 1, kHeldSamples / static_cast<int>(tile.pixel_count()));
+  const std::size_t held = pixels * std::max(0, std::min(at_once, sample_end - sample_begin));
+  std::vector<PixelSample> samples(held);
+  std::vector<RadianceParts> parts(classes ? held : 0);
   for (int begin = sample_begin; begin < sample_end; begin += at_once) {
     const int end = std::min(begin + at_once, sample_end);
-    const std::span<PixelSample> part(samples.data(), static_cast<std::size_t>(pixels) * (end - begin));
-    trace_tile(scene, tile, begin, end, part, counters);
-    for (std::size_t i = 0; i < part.size(); ++i) {
-      const auto [x, y] = pixel_at(tile, static_cast<int>(i) / (end - begin));
-      film.add(x, y, part[i]);
+    const auto count = static_cast<std::size_t>(end - begin);
+    const std::span some(samples.data(), pixels * count);
+    trace_tile(scene, tile, begin, end, some, std::span(parts.data(), classes ? some.size() : 0), counters);
+    for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
+      const auto [x, y] = pixel_at(tile, static_cast<int>(pixel));
+      const std::span own = some.subspan(pixel * count, count);
+      for (const PixelSample& sample : own) film.add(x, y, sample);
+      if (classes) film.add_classes(x, y, own, std::span(parts).subspan(pixel * count, count));
     }
   }
 }

@@ -58,6 +58,8 @@ struct SceneView {
   float shadow_roulette = 0;       ///< times the path's first shadow ray; 0: every shadow ray is cast
   LightSampling light_sampling = LightSampling::kMis;
   bool matter_emits = false;
+  bool keeps_parts = false;  ///< paths keep their RadianceParts
+  float dense_mu_t = 0;      ///< [1/mm]; matter that is denser stands for the pixel (xu2024 5.2)
   /// Whether a flight after the last scattering can meet anything that emits.
   bool last_flight_collects = true;
 };

@@ -138,6 +138,11 @@ std::vector<double> texel_shares(int width, int height) {
   return shares;
 }
 
+void check_sphere(const SceneSphere& scene) {
+  if (!(scene.radius_mm > 0) || !std::isfinite(scene.radius_mm) || !is_finite(scene.center_mm))
+    throw Error(ErrorCode::kInternal, "", "lights need a finite scene sphere of positive radius");
+}
+
 bool emits(Vec3f emission) { return max_component(emission) > 0.0f; }
 
 }  // namespace
@@ -145,21 +150,28 @@ bool emits(Vec3f emission) { return max_component(emission) > 0.0f; }
 Lights::Lights(const std::vector<LightDescription>& lights, const EnvironmentDescription& environment,
                const EnvironmentImage* image, const ViewFrame& camera, const SceneSphere& scene,
                EnvironmentSamples samples) {
+  compile_environment(environment, image, samples);
+  update(lights, environment, camera, scene);
+}
+
+void Lights::update(const std::vector<LightDescription>& lights, const EnvironmentDescription& environment,
+                    const ViewFrame& camera, const SceneSphere& scene) {
+  check_sphere(scene);
+  if (!std::isfinite(environment.rotation_deg))
+    refuse("/environment/rotation_deg", shown(environment.rotation_deg) + ", expected a finite angle");
+  std::vector<Light> compiled;
   for (std::size_t i = 0; i < lights.size(); ++i)
-    lights_.push_back(compile_light(lights[i], camera, "/lights/" + std::to_string(i)));
-  std::erase_if(lights_, [](const Light& light) { return !emits(light.emission); });
+    compiled.push_back(compile_light(lights[i], camera, "/lights/" + std::to_string(i)));
+  std::erase_if(compiled, [](const Light& light) { return !emits(light.emission); });
   const auto rects_end = std::stable_partition(
-      lights_.begin(), lights_.end(), [](const Light& light) { return light.kind == LightKind::kRect; });
-  rect_count_ = static_cast<int>(rects_end - lights_.begin());
-  compile_environment(environment, image, camera, samples);
+      compiled.begin(), compiled.end(), [](const Light& light) { return light.kind == LightKind::kRect; });
+  rect_count_ = static_cast<int>(rects_end - compiled.begin());
+  lights_ = std::move(compiled);
+  turn_environment(environment, camera);
   compile_pick(scene);
 }
 
-void Lights::compile_environment(const EnvironmentDescription& d, const EnvironmentImage* image,
-                                 const ViewFrame& camera, EnvironmentSamples samples) {
-  const Vec3f scale(checked_emission(d.color, d.intensity, "/environment"));
-  if (!std::isfinite(d.rotation_deg))
-    refuse("/environment/rotation_deg", shown(d.rotation_deg) + ", expected a finite angle");
+void Lights::turn_environment(const EnvironmentDescription& d, const ViewFrame& camera) {
   Vec3d x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
   if (d.attached_to == Attachment::kCamera) {
     x = Vec3d(camera.right);
@@ -170,6 +182,11 @@ void Lights::compile_environment(const EnvironmentDescription& d, const Environm
   environment_.axis_x = Vec3f(x * std::cos(angle) + y * std::sin(angle));
   environment_.axis_y = Vec3f(y * std::cos(angle) - x * std::sin(angle));
   environment_.axis_z = Vec3f(z);
+}
+
+void Lights::compile_environment(const EnvironmentDescription& d, const EnvironmentImage* image,
+                                 EnvironmentSamples samples) {
+  const Vec3f scale(checked_emission(d.color, d.intensity, "/environment"));
   if (image) {
     compile_image(*image, scale);
     compile_choice(samples);
@@ -223,13 +240,12 @@ void Lights::compile_choice(EnvironmentSamples samples) {
 }
 
 void Lights::compile_pick(const SceneSphere& scene) {
-  if (!(scene.radius_mm > 0) || !std::isfinite(scene.radius_mm) || !is_finite(scene.center_mm))
-    throw Error(ErrorCode::kInternal, "", "lights need a finite scene sphere of positive radius");
   std::vector<double> weights;
   for (const Light& light : lights_) weights.push_back(importance(light, scene));
   weights.push_back(std::numbers::pi * sampled_environment_);
   const bool environment_sampled = sampled_environment_ > 0;
   const double count = static_cast<double>(lights_.size()) + (environment_sampled ? 1.0 : 0.0);
+  pick_ = {};
   if (count == 0) return;
   double total = 0;
   for (double w : weights) total += w;
@@ -248,6 +264,7 @@ LightsView Lights::view() const {
   out.rect_count = rect_count_;
   out.has_environment = has_environment_;
   out.environment = environment_;
+  out.environment_mean = mean_environment_;
   out.environment.texels = texels_.data();
   out.environment.cap_versine = cap_versine_.data();
   out.environment.choice = texel_choice_.view();

@@ -39,15 +39,18 @@ class Lights {
          const EnvironmentImage* image, const ViewFrame& camera, const SceneSphere& scene,
          EnvironmentSamples samples = EnvironmentSamples::kWhole);
 
-  /// Valid while this lives, also after a move.
-  LightsView view() const;
+  /// Other lights, another camera and scene, and another turn or attachment of the environment; its picture,
+  /// colour and intensity stay what they are. Throws as the constructor does, and nothing has changed then.
+  void update(const std::vector<LightDescription>& lights, const EnvironmentDescription& environment,
+              const ViewFrame& camera, const SceneSphere& scene);
 
-  /// Mean over all directions, for EnvironmentDescription::ambient.
-  Vec3f mean_environment_radiance() const { return mean_environment_; }
+  /// Valid while this lives, also after a move, until update().
+  LightsView view() const;
 
  private:
   void compile_environment(const EnvironmentDescription& description, const EnvironmentImage* image,
-                           const ViewFrame& camera, EnvironmentSamples samples);
+                           EnvironmentSamples samples);
+  void turn_environment(const EnvironmentDescription& description, const ViewFrame& camera);
   void compile_image(const EnvironmentImage& image, Vec3f scale);
   void compile_choice(EnvironmentSamples samples);
   void compile_pick(const SceneSphere& scene);

@@ -35,6 +35,7 @@ struct LightsView {
   int rect_count = 0;
   bool has_environment = false;
   EnvironmentView environment;
+  Vec3f environment_mean{0};  ///< radiance, over all directions
   /// Probabilities of the lights, then of the environment (index light_count). No bins: nothing to sample.
   Distribution1DView pick;
 };

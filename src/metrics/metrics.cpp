@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
 #include <vector>
 
-#include "tonemap/srgb.h"
-#include "voxlume/error.h"
+#include "metrics/pixel_values.h"
 
 namespace voxlume {
 namespace {
@@ -15,51 +13,18 @@ namespace {
 constexpr int kWindow = 11;
 constexpr double kWindowSigma = 1.5;
 
-std::string size_text(const Image& image) {
-  return std::to_string(image.width) + " x " + std::to_string(image.height);
-}
-
-void check_finite(const Image& image, const char* which) {
-  for (std::size_t i = 0; i < image.pixel_count(); ++i) {
-    for (int c = 0; c < 3; ++c) {
-      if (std::isfinite(image.rgba[4 * i + c])) continue;
-      throw Error(ErrorCode::kBadParameter, "",
-                  std::string(which) + " has a value that is not finite at pixel " +
-                      std::to_string(i % image.width) + "," + std::to_string(i / image.width) +
-                      "; expected finite values");
-    }
-  }
-}
-
-void check_pair(const Image& image, const Image& reference) {
-  if (image.width != reference.width || image.height != reference.height) {
-    throw Error(
-        ErrorCode::kBadParameter, "",
-        "sizes differ: " + size_text(image) + " and " + size_text(reference) + "; expected equal sizes");
-  }
-  if (image.width < 1 || image.height < 1) {
-    throw Error(ErrorCode::kBadParameter, "", "the pictures are empty; expected at least one pixel");
-  }
-  check_finite(image, "the picture");
-  check_finite(reference, "the reference");
-}
-
-double display_value(float linear) { return srgb_from_linear(std::clamp(linear, 0.0f, 1.0f)); }
-
-// Mean over the R, G and B values of (value(image) - value(reference))^2.
-template <class Value>
-double mean_squared_difference(const Image& image, const Image& reference, Value value) {
+// Mean over the R, G and B values.
+double mean_squared_difference(const Image& image, const Image& reference, PixelValues values) {
   double sum = 0;
   for (std::size_t i = 0; i < image.pixel_count(); ++i) {
     for (int c = 0; c < 3; ++c) {
-      const double difference = value(image.rgba[4 * i + c]) - value(reference.rgba[4 * i + c]);
+      const double difference =
+          pixel_value(image.rgba[4 * i + c], values) - pixel_value(reference.rgba[4 * i + c], values);
       sum += difference * difference;
     }
   }
   return sum / (3.0 * static_cast<double>(image.pixel_count()));
 }
-
-double linear_value(float linear) { return linear; }
 
 // Nearest rank: the smallest value that at least this share of the R, G and B values do not exceed.
 double quantile(const Image& image, double share) {
@@ -79,7 +44,9 @@ std::vector<double> luma(const Image& image) {
   std::vector<double> out(image.pixel_count());
   for (std::size_t i = 0; i < out.size(); ++i) {
     const float* rgb = &image.rgba[4 * i];
-    out[i] = 0.2126 * display_value(rgb[0]) + 0.7152 * display_value(rgb[1]) + 0.0722 * display_value(rgb[2]);
+    out[i] = 0.2126 * pixel_value(rgb[0], PixelValues::kDisplay) +
+             0.7152 * pixel_value(rgb[1], PixelValues::kDisplay) +
+             0.0722 * pixel_value(rgb[2], PixelValues::kDisplay);
   }
   return out;
 }
@@ -120,21 +87,21 @@ std::vector<double> windowed_product(const std::vector<double>& a, const std::ve
 
 }  // namespace
 
-double rmse(const Image& image, const Image& reference) {
+double rmse(const Image& image, const Image& reference, PixelValues values) {
   check_pair(image, reference);
-  return std::sqrt(mean_squared_difference(image, reference, linear_value));
+  return std::sqrt(mean_squared_difference(image, reference, values));
 }
 
 std::optional<double> psnr(const Image& image, const Image& reference) {
   check_pair(image, reference);
-  const double error = mean_squared_difference(image, reference, display_value);
+  const double error = mean_squared_difference(image, reference, PixelValues::kDisplay);
   if (error == 0) return std::nullopt;
   return -10 * std::log10(error);
 }
 
 std::optional<double> psnr_hdr(const Image& image, const Image& reference) {
   check_pair(image, reference);
-  const double error = mean_squared_difference(image, reference, linear_value);
+  const double error = mean_squared_difference(image, reference, PixelValues::kLinear);
   const double peak = quantile(reference, 0.999);
   if (error == 0 || !(peak > 0)) return std::nullopt;
   return 10 * std::log10(peak * peak / error);

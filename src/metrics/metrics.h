@@ -1,16 +1,17 @@
 #pragma once
 #include <optional>
 
+#include "metrics/pixel_values.h"
 #include "voxlume/image.h"
 
 namespace voxlume {
 
 // How far a picture is from a reference. All compare R, G and B (premultiplied, as they are) and leave alpha
-// and layers alone. "Display values" are the sRGB encoding of the linear values clamped to [0,1].
+// and layers alone. Display values are those of PixelValues::kDisplay.
 // Each throws Error kBadParameter when the sizes differ, a picture is empty, or a value is not finite.
 
-/// Root of the mean squared difference of the linear values.
-double rmse(const Image& image, const Image& reference);
+/// Root of the mean squared difference of the values.
+double rmse(const Image& image, const Image& reference, PixelValues values = PixelValues::kLinear);
 
 /// 10 log10(1 / mean squared difference of the display values) [dB]; absent when they are identical.
 std::optional<double> psnr(const Image& image, const Image& reference);

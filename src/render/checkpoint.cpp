@@ -27,7 +27,7 @@ struct Header {
   std::uint32_t format_version = kFormatVersion;
   std::uint32_t byte_order = kByteOrder;
   std::uint32_t width = 0, height = 0, tile_size = 0;
-  std::uint32_t layer_bits = 0;  // 1 depth, 2 normal, 4 albedo
+  std::uint32_t layer_bits = 0;  // 1 depth, 2 normal, 4 albedo, 8 classes
   std::uint64_t fingerprint_bytes = 0;
   TraceCounters counters;
   double elapsed_s = 0;
@@ -37,6 +37,7 @@ static_assert(sizeof(Header) == 88 && std::is_trivially_copyable_v<Header>);
 using Crc = std::uint32_t;
 
 Crc extend_crc(Crc crc, std::span<const std::byte> bytes) {
+  if (bytes.empty()) return crc;  // zlib takes a null pointer for a wish to begin anew
   return static_cast<Crc>(crc32_z(crc, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
@@ -51,7 +52,8 @@ Header header_of(const RenderState& state, const std::string& fingerprint) {
   header.width = static_cast<std::uint32_t>(state.film.width());
   header.height = static_cast<std::uint32_t>(state.film.height());
   header.tile_size = static_cast<std::uint32_t>(state.tile_size);
-  header.layer_bits = (layers.depth ? 1u : 0u) | (layers.normal ? 2u : 0u) | (layers.albedo ? 4u : 0u);
+  header.layer_bits = (layers.depth ? 1u : 0u) | (layers.normal ? 2u : 0u) | (layers.albedo ? 4u : 0u) |
+                      (layers.classes ? 8u : 0u);
   header.fingerprint_bytes = fingerprint.size();
   header.counters = state.counters;
   header.elapsed_s = state.elapsed_s;
@@ -61,7 +63,8 @@ Header header_of(const RenderState& state, const std::string& fingerprint) {
 FilmLayers layers_of(const Header& header) {
   return {.depth = (header.layer_bits & 1u) != 0,
           .normal = (header.layer_bits & 2u) != 0,
-          .albedo = (header.layer_bits & 4u) != 0};
+          .albedo = (header.layer_bits & 4u) != 0,
+          .classes = (header.layer_bits & 8u) != 0};
 }
 
 [[noreturn]] void fail_format(const fs::path& path, const std::string& message) {
@@ -83,7 +86,7 @@ void check_header(const Header& header, std::uint64_t file_bytes, const fs::path
   }
   const auto side_ok = [](std::uint32_t side) { return side >= 1 && side <= kMaxSide; };
   const bool sizes_ok = side_ok(header.width) && side_ok(header.height) && side_ok(header.tile_size) &&
-                        header.layer_bits < 8 && header.fingerprint_bytes <= file_bytes;
+                        header.layer_bits < 16 && header.fingerprint_bytes <= file_bytes;
   if (!sizes_ok) fail_format(path, "is a damaged checkpoint: impossible sizes");
   const std::uint64_t expected = sizeof(Header) + header.fingerprint_bytes + film_bytes(header) + sizeof(Crc);
   if (file_bytes != expected) {

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <tuple>
 
 #include "base/parallel.h"
 #include "camera/camera.h"
@@ -60,6 +61,32 @@ void check_whole_numbers(const GridView& grid, const std::string& path) {
     throw Error(ErrorCode::kBadFormat, path, "expected a label volume of whole numbers, found fractions");
 }
 
+/// A label volume and its colours, read and checked.
+struct LabelSet {
+  Volume volume;
+  LabelTable table;
+};
+
+LabelSet read_labels(const LabelsDescription& labels, const Double3& origin_mm) {
+  LabelSet out{read_volume(labels.path), {}};
+  const GridView grid = make_grid_view(moved_to_origin(out.volume, origin_mm));
+  const VolumeStatistics statistics = compute_statistics(grid);
+  check_whole_numbers(grid, labels.path);
+  if (statistics.upper > static_cast<float>(kMaxLabel))
+    throw Error(
+        ErrorCode::kBadFormat, labels.path,
+        "expected labels up to " + std::to_string(kMaxLabel) + ", found " + std::to_string(statistics.upper));
+  const auto count = static_cast<std::size_t>(std::max(statistics.upper, 0.0f)) + 1;
+  out.table = read_label_table(labels.path, labels.names, count);
+  return out;
+}
+
+/// All that the choice of an accelerator depends on besides the volume.
+auto accelerator_fields(const RenderDescription& render) {
+  return std::tie(render.accelerator, render.macrocell_voxels, render.hierarchy_rule, render.lookup_cost,
+                  render.hierarchy_thresholds, render.transmittance, render.free_flight);
+}
+
 LightSampling light_sampling(const std::string& name) {
   if (name == "mis") return LightSampling::kMis;
   if (name == "light") return LightSampling::kLight;
@@ -107,66 +134,132 @@ AcceleratorChoice accelerator_choice(const RenderDescription& render, const Grid
   return choice;
 }
 
+/// What of a scene was compiled anew and may not be, for want of a change.
+struct CompiledScene::Parts {
+  std::optional<TransferFunction> transfer;
+  std::optional<Accelerator> accelerator;
+  std::optional<LabelSet> labels;
+};
+
 CompiledScene::CompiledScene(SceneDescription description, Volume volume, const VolumeStatistics& statistics)
-    : description_(std::move(description)),
-      volume_(std::move(volume)),
+    : volume_(std::move(volume)),
       origin_mm_(visible_sphere(volume_, std::nullopt).center_mm),
-      transfer_(description_.transfer),
-      accelerator_(make_grid_view(volume_),
-                   accelerator_choice(description_.render, make_grid_view(volume_))) {
-  check_built(description_.render);
-  check_values(statistics);
-  const SceneDescription local = moved_to_origin(description_, origin_mm_);
-  compile_medium(local);
-  compile_scattering(statistics);
-  compile_labels();
-  compile_lights_and_camera(local);
-  compile_image();
-}
-
-void CompiledScene::check_values(const VolumeStatistics& statistics) {
+      values_{statistics.lower, statistics.upper},
+      gradient_p999_(statistics.gradient_p999) {
   if (!std::isfinite(statistics.lower) || !std::isfinite(statistics.upper))
-    throw Error(ErrorCode::kUnsupported, description_.volume.path,
+    throw Error(ErrorCode::kUnsupported, description.volume.path,
                 "its values exceed what a 32-bit float holds, in which voxlume computes; rescale them");
-  const float magnitude = std::max(std::abs(statistics.lower), std::abs(statistics.upper));
-  if (voxel_bytes(volume_.type) > 2 && statistics.upper > statistics.lower &&
-      statistics.upper - statistics.lower < 1e-5f * magnitude)
-    warnings_.push_back(
-        "the values differ by little more than the precision of a 32-bit float; subtract their mean");
-  if (statistics.nonfinite_voxels > 0)
-    warnings_.push_back(std::to_string(statistics.nonfinite_voxels) +
-                        " voxels are not finite and stay transparent");
-  if (!(transfer_.max_mu_t(statistics.lower, statistics.upper) > 0))
-    warnings_.push_back("nothing is visible: the transfer function is 0 for every value of the volume");
+  compile(std::move(description), true);
+  warn_of_values(statistics);
 }
 
-void CompiledScene::compile_medium(const SceneDescription& local) {
-  const double voxel_depth = double{transfer_.max_mu_t()} * make_grid_view(volume_).step_mm;
-  if (voxel_depth > kMaxVoxelDepth)
-    throw Error(ErrorCode::kBadParameter, "/transfer",
-                "its densest matter has an optical depth of " + std::to_string(voxel_depth) +
-                    " in one voxel; expected at most 100000");
-  const auto start = std::chrono::steady_clock::now();
-  accelerator_.update(transfer_);
-  majorant_build_ms_ =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  view_.medium = {make_grid_view(moved_to_origin(volume_, origin_mm_)), transfer_.view(),
-                  accelerator_.view()};
-  view_.simd = simd_target(description_.render.simd);
-  view_.trackers = trackers(description_.render);
+void CompiledScene::update(SceneDescription description) {
+  description.volume = description_.volume;
+  compile(std::move(description), false);
+}
+
+void CompiledScene::compile(SceneDescription description, bool everything) {
+  const SceneDescription local = moved_to_origin(description, origin_mm_);
+  const BoundingSphere visible = visible_sphere(moved_to_origin(volume_, origin_mm_), local.clip);
+  const SceneSphere sphere{Vec3f(Vec3d(visible.center_mm[0], visible.center_mm[1], visible.center_mm[2])),
+                           static_cast<float>(visible.radius_mm)};
+  // What can fail comes first; from put_medium on, nothing does.
+  Parts parts = compile_parts(description, everything);
+  const CameraView camera =
+      compile_camera(local.camera, sphere.center_mm, sphere.radius_mm, local.image.width, local.image.height);
+  compile_lights(local, everything, camera, sphere);
+  view_.camera = camera;
+  put_medium(parts, local);
+  put_scattering(description.material);
+  put_image(description);
+  description_ = std::move(description);
+}
+
+CompiledScene::Parts CompiledScene::compile_parts(const SceneDescription& description,
+                                                  bool everything) const {
+  const RenderDescription& render = description.render;
+  check_built(render);
+  simd_target(render.simd);
+  Parts parts;
+  if (everything || !(description.transfer == description_.transfer)) {
+    parts.transfer.emplace(description.transfer);
+    const double voxel_depth = double{parts.transfer->max_mu_t()} * make_grid_view(volume_).step_mm;
+    if (voxel_depth > kMaxVoxelDepth)
+      throw Error(ErrorCode::kBadParameter, "/transfer",
+                  "its densest matter has an optical depth of " + std::to_string(voxel_depth) +
+                      " in one voxel; expected at most 100000");
+  }
+  if (everything || accelerator_fields(render) != accelerator_fields(description_.render)) {
+    const GridView grid = make_grid_view(volume_);
+    parts.accelerator.emplace(grid, accelerator_choice(render, grid));
+  }
+  const auto& labels = description.labels;
+  if (labels && (everything || !description_.labels || labels->path != description_.labels->path ||
+                 labels->names != description_.labels->names))
+    parts.labels = read_labels(*labels, origin_mm_);
+  return parts;
+}
+
+void CompiledScene::compile_lights(const SceneDescription& local, bool everything, const CameraView& camera,
+                                   const SceneSphere& sphere) {
+  const EnvironmentDescription& environment = *local.environment;
+  const LightSampling sampling = light_sampling(local.render.light_sampling);
+  // The tables of the environment's picture are what takes long.
+  const bool same_tables = !everything && sampling == view_.light_sampling &&
+                           environment.image == description_.environment->image &&
+                           environment.color == description_.environment->color &&
+                           environment.intensity == description_.environment->intensity;
+  if (same_tables) {
+    lights_->update(*local.lights, environment, view_frame(camera), sphere);
+  } else {
+    std::optional<EnvironmentImage> picture;
+    if (!environment.image.empty()) picture = read_environment(environment.image);
+    const auto samples =
+        sampling == LightSampling::kMis ? EnvironmentSamples::kExcess : EnvironmentSamples::kWhole;
+    lights_ = Lights(*local.lights, environment, picture ? &*picture : nullptr, view_frame(camera), sphere,
+                     samples);
+  }
+  view_.light_sampling = sampling;
+  view_.lights = lights_->view();
+  view_.ambient = environment.ambient ? view_.lights.environment_mean : Vec3f(0.0f);
+}
+
+void CompiledScene::put_medium(Parts& parts, const SceneDescription& local) {
+  const bool new_majorants = parts.transfer || parts.accelerator;
+  if (parts.transfer) transfer_ = std::move(parts.transfer);
+  if (parts.accelerator) accelerator_.emplace(std::move(*parts.accelerator));
+  if (new_majorants) {
+    const auto start = std::chrono::steady_clock::now();
+    accelerator_->update(*transfer_);
+    majorant_build_ms_ =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    view_.medium = {make_grid_view(moved_to_origin(volume_, origin_mm_)), transfer_->view(),
+                    accelerator_->view()};
+  }
+  view_.simd = simd_target(local.render.simd);
+  view_.trackers = trackers(local.render);
   if (!view_.trackers.is_default() || !vector_tracker(view_.simd, view_.medium))
     view_.simd = SimdTarget::kScalar;
   view_.domain_index = view_.medium.grid.index_box();
   view_.clip_world = {Vec3f(-1e30f), Vec3f(1e30f)};
+  view_.clip_blocks_light = local.clip && local.clip->blocks_light;
   if (const auto& clip = local.clip) {
     view_.clip_world = {Vec3f(Vec3d(clip->x_mm[0], clip->y_mm[0], clip->z_mm[0])),
                         Vec3f(Vec3d(clip->x_mm[1], clip->y_mm[1], clip->z_mm[1]))};
-    view_.clip_blocks_light = clip->blocks_light;
   }
+  if (parts.labels) {
+    warnings_.insert(warnings_.end(), parts.labels->volume.warnings.begin(),
+                     parts.labels->volume.warnings.end());
+    label_volume_ = std::move(parts.labels->volume);
+    label_table_ = std::move(parts.labels->table);
+    view_.labels = {make_grid_view(moved_to_origin(*label_volume_, origin_mm_)), label_table_->colors.data(),
+                    static_cast<std::int32_t>(label_table_->colors.size())};
+  }
+  if (!local.labels) view_.labels = {};
+  if (local.labels) view_.labels.strength = static_cast<float>(local.labels->strength);
 }
 
-void CompiledScene::compile_scattering(const VolumeStatistics& statistics) {
-  const MaterialDescription& material = description_.material;
+void CompiledScene::put_scattering(const MaterialDescription& material) {
   ScatteringView& out = view_.scattering;
   out.shading = material.shading;
   out.surface_share = material.surface_share;
@@ -175,50 +268,16 @@ void CompiledScene::compile_scattering(const VolumeStatistics& statistics) {
   out.g = static_cast<float>(material.anisotropy);
   out.alpha = static_cast<float>(material.roughness * material.roughness);
   out.f0 = static_cast<float>(0.08 * material.specular);
-  out.inverse_gradient_scale = 1.0f / statistics.gradient_p999;
+  out.inverse_gradient_scale = 1.0f / gradient_p999_;
+  // What stands for a pixel has at least a quarter of the greatest extinction in the volume (xu2024 5.2).
+  view_.dense_mu_t = 0.25f * transfer_->max_mu_t(values_.lower, values_.upper);
 }
 
-void CompiledScene::compile_labels() {
-  if (!description_.labels) return;
-  const LabelsDescription& labels = *description_.labels;
-  label_volume_ = read_volume(labels.path);
-  warnings_.insert(warnings_.end(), label_volume_->warnings.begin(), label_volume_->warnings.end());
-  const GridView grid = make_grid_view(moved_to_origin(*label_volume_, origin_mm_));
-  const VolumeStatistics statistics = compute_statistics(grid);
-  check_whole_numbers(grid, labels.path);
-  if (statistics.upper > static_cast<float>(kMaxLabel))
-    throw Error(
-        ErrorCode::kBadFormat, labels.path,
-        "expected labels up to " + std::to_string(kMaxLabel) + ", found " + std::to_string(statistics.upper));
-  const auto count = static_cast<std::size_t>(std::max(statistics.upper, 0.0f)) + 1;
-  label_table_ = read_label_table(labels.path, labels.names, count);
-  view_.labels = {grid, label_table_->colors.data(), static_cast<std::int32_t>(count),
-                  static_cast<float>(labels.strength)};
-}
-
-void CompiledScene::compile_lights_and_camera(const SceneDescription& local) {
-  const BoundingSphere sphere = visible_sphere(moved_to_origin(volume_, origin_mm_), local.clip);
-  const Vec3f center(Vec3d(sphere.center_mm[0], sphere.center_mm[1], sphere.center_mm[2]));
-  const auto radius = static_cast<float>(sphere.radius_mm);
-  view_.camera = compile_camera(local.camera, center, radius, local.image.width, local.image.height);
-
-  const EnvironmentDescription& environment = *local.environment;
-  std::optional<EnvironmentImage> picture;
-  if (!environment.image.empty()) picture = read_environment(environment.image);
-  view_.light_sampling = light_sampling(local.render.light_sampling);
-  const auto samples =
-      view_.light_sampling == LightSampling::kMis ? EnvironmentSamples::kExcess : EnvironmentSamples::kWhole;
-  lights_.emplace(*local.lights, environment, picture ? &*picture : nullptr, view_frame(view_.camera),
-                  SceneSphere{center, radius}, samples);
-  view_.lights = lights_->view();
-  if (environment.ambient) view_.ambient = lights_->mean_environment_radiance();
-  view_.background = description_.background->kind;
-  view_.background_color = to_vec(description_.background->color);
-}
-
-void CompiledScene::compile_image() {
-  const ImageDescription& image = description_.image;
-  const RenderDescription& render = description_.render;
+void CompiledScene::put_image(const SceneDescription& description) {
+  const ImageDescription& image = description.image;
+  const RenderDescription& render = description.render;
+  view_.background = description.background->kind;
+  view_.background_color = to_vec(description.background->color);
   view_.width = image.width;
   view_.height = image.height;
   view_.filter = image.filter;
@@ -229,10 +288,23 @@ void CompiledScene::compile_image() {
   view_.sampler = render.sampler;
   view_.light_samples = render.light_samples;
   view_.shadow_roulette = static_cast<float>(render.shadow_roulette);
-  view_.matter_emits = transfer_.emits();
+  view_.matter_emits = transfer_->emits();
   view_.last_flight_collects =
       view_.matter_emits || (view_.light_sampling != LightSampling::kLight &&
                              (view_.lights.has_environment || view_.lights.rect_count > 0));
+}
+
+void CompiledScene::warn_of_values(const VolumeStatistics& statistics) {
+  const float magnitude = std::max(std::abs(statistics.lower), std::abs(statistics.upper));
+  if (voxel_bytes(volume_.type) > 2 && statistics.upper > statistics.lower &&
+      statistics.upper - statistics.lower < 1e-5f * magnitude)
+    warnings_.push_back(
+        "the values differ by little more than the precision of a 32-bit float; subtract their mean");
+  if (statistics.nonfinite_voxels > 0)
+    warnings_.push_back(std::to_string(statistics.nonfinite_voxels) +
+                        " voxels are not finite and stay transparent");
+  if (!(transfer_->max_mu_t(statistics.lower, statistics.upper) > 0))
+    warnings_.push_back("nothing is visible: the transfer function is 0 for every value of the volume");
 }
 
 }  // namespace voxlume

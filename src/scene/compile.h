@@ -4,6 +4,7 @@
 #include <string>
 
 #include "accel/accelerator.h"
+#include "grid/value_range.h"
 #include "grid/volume_statistics.h"
 #include "integrator/scene_view.h"
 #include "light/compile_lights.h"
@@ -17,8 +18,8 @@ namespace voxlume {
 /// The structure that a scene asks for. Throws Error kBadParameter for words it does not know.
 AcceleratorChoice accelerator_choice(const RenderDescription& render, const GridView& grid);
 
-/// A scene ready to trace: owns the voxels and every table that view() points to. Immutable. World
-/// coordinates of view() are LPS mm from the volume's centre.
+/// A scene ready to trace: owns the voxels and every table that view() points to. World coordinates of view()
+/// are LPS mm from the volume's centre.
 class CompiledScene {
  public:
   /// `description` is resolved (scene/resolve.h); reads its environment picture and label volume.
@@ -27,31 +28,47 @@ class CompiledScene {
   CompiledScene(const CompiledScene&) = delete;
   CompiledScene& operator=(const CompiledScene&) = delete;
 
+  /// Compiles another description of the same volume, and of it only what differs: a camera, lights or a clip
+  /// box take microseconds, a transfer function the majorants that it changes; value ranges are built again
+  /// for another accelerator only. `description` is resolved; its volume counts as the one at hand. Nothing
+  /// may be tracing, and copies of view() are out of date afterwards. Throws as the constructor does; the
+  /// scene is then what it was, but for warnings().
+  void update(SceneDescription description);
+
   const SceneView& view() const { return view_; }
   const SceneDescription& description() const { return description_; }
   const Volume& volume() const { return volume_; }
+  /// The place of view()'s origin [LPS mm].
+  const Double3& origin_mm() const { return origin_mm_; }
   const std::optional<LabelTable>& label_table() const { return label_table_; }
   /// What reading the scene's other files had to say.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
+  /// Of the last compilation that changed the transfer function or the accelerator.
   double majorant_build_ms() const { return majorant_build_ms_; }
 
  private:
-  void check_values(const VolumeStatistics& statistics);
-  void compile_medium(const SceneDescription& local);
-  void compile_scattering(const VolumeStatistics& statistics);
-  void compile_labels();
-  void compile_lights_and_camera(const SceneDescription& local);
-  void compile_image();
+  struct Parts;
+
+  void compile(SceneDescription description, bool everything);
+  Parts compile_parts(const SceneDescription& description, bool everything) const;
+  void compile_lights(const SceneDescription& local, bool everything, const CameraView& camera,
+                      const SceneSphere& sphere);
+  void put_medium(Parts& parts, const SceneDescription& local);
+  void put_scattering(const MaterialDescription& material);
+  void put_image(const SceneDescription& description);
+  void warn_of_values(const VolumeStatistics& statistics);
 
   SceneDescription description_;
   Volume volume_;
-  Double3 origin_mm_;  ///< LPS place of the kernels' origin: the volume's centre
+  Double3 origin_mm_;  ///< the volume's centre
+  ValueRange values_;  ///< of the whole volume
+  float gradient_p999_;
   std::optional<Volume> label_volume_;
   std::optional<LabelTable> label_table_;
   std::vector<std::string> warnings_;
-  TransferFunction transfer_;
-  Accelerator accelerator_;
+  std::optional<TransferFunction> transfer_;
+  std::optional<Accelerator> accelerator_;
   std::optional<Lights> lights_;
   double majorant_build_ms_ = 0;
   SceneView view_;

@@ -11,6 +11,8 @@ namespace voxlume {
 void check_field(double value, const FieldInfo& info, const std::string& where);
 void check_field(const Color& value, const FieldInfo& info, const std::string& where);
 void check_field(const std::string& value, const FieldInfo& info, const std::string& where);
+/// The time alone; what values are good for is the field's to say (check_animation).
+void check_field(const AnimationKey& value, const FieldInfo& info, const std::string& where);
 void check_integer(std::int64_t value, const FieldInfo& info, const std::string& where);
 [[noreturn]] void fail_count(std::size_t count, const FieldInfo& info, const std::string& where);
 /// The address of a key or index inside `where`: "scene.json: /" and "image" make "scene.json: /image".

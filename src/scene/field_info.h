@@ -56,6 +56,7 @@ struct FieldInfo {
   std::size_t max_count = 4096;        ///< lists: most elements
   bool required = false;               ///< must be in the file, and is always written
   bool is_path = false;                ///< text naming a file: relative ones belong to the scene's folder
+  bool is_direction = false;           ///< a vector whose length means nothing
 };
 
 /// Names the struct whose table is meant.
@@ -115,6 +116,10 @@ struct EnumWords<FreeFlightSampling> {
 template <>
 struct EnumWords<ToneCurve> {
   static constexpr std::array<std::string_view, 2> kWords{"filmic", "srgb"};
+};
+template <>
+struct EnumWords<Interpolation> {
+  static constexpr std::array<std::string_view, 3> kWords{"linear", "smooth", "step"};
 };
 
 /// The word of an enumerator, as scenes and statistics spell it.

@@ -101,6 +101,25 @@ void FieldReader::read(const json& value, const FieldInfo& info, const std::stri
   }
 }
 
+void FieldReader::read(const json& value, const FieldInfo& info, const std::string& where,
+                       AnimationKey& out) {
+  if (!value.is_array() || value.size() != 2) fail(value, where, "a key: [seconds, value]");
+  read(value[0], info, child_address(where, "0"), out.time_s);
+  const std::string address = child_address(where, "1");
+  const json& of_field = value[1];
+  const auto read_as = [&]<class T>(T shape) {
+    read(of_field, FieldInfo{.key = "", .doc = "", .max_count = 65536}, address, shape);
+    out.value = std::move(shape);
+  };
+  if (of_field.is_number()) return read_as(double{});
+  if (of_field.is_boolean()) return read_as(bool{});
+  if (of_field.is_string()) return read_as(std::string{});
+  if (of_field.is_object()) return read_as(Color{});
+  if (!of_field.is_array()) fail(of_field, address, "a value of the field");
+  const bool points = !of_field.empty() && of_field[0].is_object();
+  points ? read_as(std::vector<TransferPoint>{}) : read_as(std::vector<double>{});
+}
+
 void FieldReader::check_keys(const json& object, const std::string& where,
                              const std::vector<std::string_view>& known) {
   for (const auto& [key, value] : object.items()) {

@@ -109,6 +109,8 @@ class FieldReader {
   static void read(const json& value, const FieldInfo&, const std::string& where, Color& out) {
     out = read_color(value, where);
   }
+  /// [time, value]; the value by its own shape, whatever the field.
+  static void read(const json& value, const FieldInfo&, const std::string& where, AnimationKey& out);
 
  private:
   /// Throws Error: the first key of `object` that is not in `known`, with the nearest one that is.

@@ -1,5 +1,6 @@
 #pragma once
 #include "scene/field_info.h"
+#include "scene/field_table_animation.h"
 #include "scene/field_table_matter.h"
 #include "scene/field_table_view.h"
 
@@ -164,6 +165,8 @@ void visit_fields(V&& visit, Struct<SceneDescription>) {
   visit({.key = "clip", .doc = "Box of what is kept.", .absent = "everything"}, &T::clip);
   visit({.key = "image", .doc = "The picture."}, &T::image);
   visit({.key = "render", .doc = "How the light is computed."}, &T::render);
+  visit({.key = "animation", .doc = "What changes from frame to frame.", .absent = "a still picture"},
+        &T::animation);
 }
 
 }  // namespace voxlume

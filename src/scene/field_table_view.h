@@ -24,7 +24,8 @@ void visit_fields(V&& visit, Struct<LightDescription>) {
   visit({.key = "direction",
          .doc = "directional (required there, and only there): from the scene to the light; need not be a "
                 "unit vector.",
-         .absent = "none"},
+         .absent = "none",
+         .is_direction = true},
         &T::direction);
   visit({.key = "position_mm",
          .doc = "point and rect (required there, and only there): where it is; a rectangle's centre.",
@@ -36,9 +37,11 @@ void visit_fields(V&& visit, Struct<LightDescription>) {
          .unit = "mm",
          .absent = "the camera's target"},
         &T::target_mm);
-  visit(
-      {.key = "up", .doc = "rect: direction of its height axis.", .absent = "the camera's or the world's up"},
-      &T::up);
+  visit({.key = "up",
+         .doc = "rect: direction of its height axis.",
+         .absent = "the camera's or the world's up",
+         .is_direction = true},
+        &T::up);
   visit({.key = "size_mm", .doc = "rect: width and height.", .unit = "mm", .range = above(0)}, &T::size_mm);
   visit({.key = "two_sided", .doc = "rect: emits from its back as well."}, &T::two_sided);
 }
@@ -118,7 +121,10 @@ void visit_fields(V&& visit, Struct<CameraDescription>) {
         &T::target_mm);
   visit({.key = "eye_mm", .doc = "Where the eye is.", .unit = "mm", .absent = "from the angles and zoom"},
         &T::eye_mm);
-  visit({.key = "up", .doc = "With eye_mm: the direction that is up in the picture.", .absent = "+z"},
+  visit({.key = "up",
+         .doc = "With eye_mm: the direction that is up in the picture.",
+         .absent = "+z",
+         .is_direction = true},
         &T::up);
   visit({.key = "height_mm",
          .doc = "orthographic: height of the view.",
@@ -142,6 +148,12 @@ void visit_fields(V&& visit, Struct<CameraDescription>) {
          .unit = "degrees",
          .range = between(0, 45)},
         &T::background_blur_deg);
+  visit({.key = "fit_radius_mm",
+         .doc = "Radius of the sphere around the target that zoom 1 fits.",
+         .unit = "mm",
+         .range = above_to(0, 1e9),
+         .absent = "that of what is visible"},
+        &T::fit_radius_mm);
 }
 
 }  // namespace voxlume

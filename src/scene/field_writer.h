@@ -47,6 +47,12 @@ struct FieldWriter {
   requires(std::is_arithmetic_v<T> || std::is_same_v<T, std::string>) OrderedJson json(const T& value)
   const { return value; }
   OrderedJson json(const Color& value) const { return color_json(value); }
+  OrderedJson json(const FieldValue& value) const {
+    return std::visit([this](const auto& v) { return json(v); }, value);
+  }
+  OrderedJson json(const AnimationKey& key) const {
+    return OrderedJson::array({json(key.time_s), json(key.value)});
+  }
 };
 
 }  // namespace voxlume

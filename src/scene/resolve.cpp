@@ -93,6 +93,7 @@ SceneDescription resolve(const SceneDescription& scene, const Volume& volume,
   if (!out.environment) out.environment = default_environment();
   if (!out.background) out.background = default_background();
   if (!out.camera.target_mm) out.camera.target_mm = sphere.center_mm;
+  if (!out.camera.fit_radius_mm) out.camera.fit_radius_mm = static_cast<float>(sphere.radius_mm);
   ImageDescription& image = out.image;
   if (!image.spp && !image.seconds && !image.noise) image.spp = kDefaultSpp;
   return out;

@@ -17,8 +17,8 @@ BoundingSphere visible_sphere(const Volume& volume, const std::optional<ClipDesc
 
 /// Fills in everything the user left open (the default picture, docs/default-picture.md), so that the result
 /// alone, saved, gives the same picture: preset points, reference length, lights, environment, background,
-/// camera target, samples. What is given stays. Throws Error kBadParameter for an unknown preset or an empty
-/// clip box.
+/// camera target and framing, samples. What is given stays. Throws Error kBadParameter for an unknown preset
+/// or an empty clip box.
 SceneDescription resolve(const SceneDescription& scene, const Volume& volume,
                          const VolumeStatistics& statistics);
 

@@ -62,6 +62,8 @@ std::string type_text(const FieldInfo& info) {
     return fmt::format("`{}`", fmt::join(EnumWords<T>::kWords, "` `"));
   } else if constexpr (std::is_same_v<T, Color>) {
     return "color";
+  } else if constexpr (std::is_same_v<T, AnimationKey>) {
+    return "[time, value]";
   } else if constexpr (std::is_same_v<T, bool>) {
     return "true, false";
   } else if constexpr (std::is_same_v<T, std::string>) {

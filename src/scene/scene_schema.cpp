@@ -40,6 +40,11 @@ OrderedJson value_schema(const FieldInfo& info) {
     return {{"enum", EnumWords<T>::kWords}};
   } else if constexpr (std::is_same_v<T, Color>) {
     return reference("Color");
+  } else if constexpr (std::is_same_v<T, AnimationKey>) {
+    return {{"type", "array"},
+            {"prefixItems", {{{"type", "number"}}, OrderedJson::object()}},
+            {"minItems", 2},
+            {"maxItems", 2}};
   } else if constexpr (std::is_same_v<T, bool>) {
     return {{"type", "boolean"}};
   } else if constexpr (std::is_same_v<T, std::string>) {

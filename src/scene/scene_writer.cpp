@@ -111,7 +111,8 @@ std::string write_scene(const SceneDescription& scene, bool all_fields) {
     if (!all_fields) {
       // A struct that is not at its default, but has nothing to write, is noise.
       for (auto it = root.begin(); it != root.end();) {
-        const bool optional = it.key() == "labels" || it.key() == "environment" || it.key() == "clip";
+        const bool optional = it.key() == "labels" || it.key() == "environment" || it.key() == "clip" ||
+                              it.key() == "animation";
         it = !optional && it->is_object() && it->empty() ? root.erase(it) : std::next(it);
       }
     }

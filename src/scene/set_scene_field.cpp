@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scene/field_reader.h"
+#include "scene/field_walk.h"
 #include "scene/scene_file.h"
 
 namespace voxlume {
@@ -65,15 +66,17 @@ json json_from_text(std::string_view text, const std::string& where) {
     if (text.empty()) return out;
     for (const std::string_view part : split(text, ',')) out.push_back(std::string(part));
     return out;
-  } else if constexpr (StructField<T> || ListField<T>) {
+  } else if constexpr (StructField<T> || ListField<T> || std::is_same_v<T, AnimationKey>) {
     return json_text(text, where);
   } else {
     return std::string(text);
   }
 }
 
-[[noreturn]] void unknown_field(std::string_view key, const std::vector<std::string_view>& known,
-                                const std::string& where) {
+}  // namespace
+
+void unknown_field(std::string_view key, const std::vector<std::string_view>& known,
+                   const std::string& where) {
   const std::string nearest = nearest_word(key, known);
   throw Error(ErrorCode::kBadParameter, where,
               "unknown field " + quote_text(key) + "; " +
@@ -82,110 +85,51 @@ json json_from_text(std::string_view text, const std::string& where) {
                                      : "did you mean " + quote_text(nearest) + "?"));
 }
 
-/// Walks down `address`, which starts with '/' or is empty, and sets what it finds at its end.
-struct FieldSetter {
-  std::string_view text;
-  const std::string& where;
+void check_address(std::string_view address, const std::string& where) {
+  if (address.starts_with('/')) return;
+  throw Error(ErrorCode::kBadParameter, where,
+              "found field " + quote_text(address) + ", expected an address such as \"/image/spp\"");
+}
 
-  template <class T>
-  void set(std::string_view address, const FieldInfo& info, T& out) const {
-    if (address.empty()) {
-      FieldReader::read(json_from_text<T>(text, where), info, where, out);
-      check_field(out, info, where);
-      return;
-    }
-    address.remove_prefix(1);
-    const std::size_t end = std::min(address.find('/'), address.size());
-    descend(address.substr(0, end), address.substr(end), info, out);
-  }
+std::string_view take_key(std::string_view& address) {
+  address.remove_prefix(1);
+  const std::string_view key = address.substr(0, address.find('/'));
+  address.remove_prefix(key.size());
+  return key;
+}
 
-  template <StructField T>
-  void descend(std::string_view key, std::string_view rest, const FieldInfo&, T& out) const {
-    bool found = false;
-    visit_fields(
-        [&](const FieldInfo& info, auto member) {
-          if (key != info.key) return;
-          found = true;
-          set(rest, info, out.*member);
-        },
-        Struct<T>{});
-    if (!found) unknown_field(key, field_keys<T>(), where);
+std::size_t element_index(std::string_view key, std::size_t count, const std::string& where) {
+  std::size_t index = 0;
+  const auto [stop, failed] = std::from_chars(key.data(), key.data() + key.size(), index);
+  if (failed != std::errc{} || stop != key.data() + key.size() || index >= count) {
+    throw Error(ErrorCode::kBadParameter, where,
+                "found element " + quote_text(key) + ", expected one of the list's " + std::to_string(count));
   }
-  template <OptionalField T>
-  void descend(std::string_view key, std::string_view rest, const FieldInfo& info, T& out) const {
-    if (!out) out.emplace();
-    descend(key, rest, info, *out);
-  }
-  template <class T>
-  requires(ListField<T> || TupleField<T>) void descend(std::string_view key, std::string_view rest,
-                                                       const FieldInfo& info, T& out) const {
-    std::size_t index = 0;
-    const auto [stop, failed] = std::from_chars(key.data(), key.data() + key.size(), index);
-    if (failed != std::errc{} || stop != key.data() + key.size() || index >= out.size()) {
-      throw Error(
-          ErrorCode::kBadParameter, where,
-          "found element " + quote_text(key) + ", expected one of the list's " + std::to_string(out.size()));
-    }
-    set(rest, info, out[index]);
-  }
-  template <class T>
-  void descend(std::string_view key, std::string_view, const FieldInfo&, T&) const {
-    unknown_field(key, {}, where);
-  }
-};
+  return index;
+}
 
-/// Finds the FieldInfo at an address, by types alone.
-struct FieldFinder {
+std::string describe_scene_field(std::string_view address) {
   std::string text;
-
-  template <StructField T>
-  bool find(std::string_view address) {
-    address.remove_prefix(1);
-    const std::size_t end = std::min(address.find('/'), address.size());
-    bool found = false;
-    visit_fields(
-        [&]<class M>(const FieldInfo& info, M T::*) {
-          if (address.substr(0, end) != info.key) return;
-          if (end == address.size()) {
-            describe(info);
-            found = true;
-          } else if constexpr (StructField<M>) {
-            found = find<M>(address.substr(end));
-          } else if constexpr (OptionalField<M>) {
-            if constexpr (StructField<typename M::value_type>) {
-              found = find<typename M::value_type>(address.substr(end));
-            }
-          }
-        },
-        Struct<T>{});
-    return found;
-  }
-
-  void describe(const FieldInfo& info) {
+  const auto describe = [&](const FieldInfo& info, auto) {
     text = info.doc;
     std::string range = range_text(info.range);
     if (*info.unit) range += (range.empty() ? "" : " ") + std::string(info.unit);
     if (!range.empty()) text += " (" + range + ")";
-  }
-};
-
-}  // namespace
-
-std::string describe_scene_field(std::string_view address) {
-  FieldFinder finder;
-  if (!address.starts_with('/') || !finder.find<SceneDescription>(address)) {
-    throw Error(ErrorCode::kBadParameter, std::string(address), "is no field of the scene");
-  }
-  return finder.text;
+  };
+  const std::string where(address);
+  check_address(address, where);
+  FieldTypeWalk{where}.visit(address, FieldInfo{.key = "", .doc = ""}, Type<SceneDescription>{}, describe);
+  return text;
 }
 
 void set_scene_field(SceneDescription& scene, std::string_view address, std::string_view text,
                      const std::string& where) {
-  if (!address.starts_with('/')) {
-    throw Error(ErrorCode::kBadParameter, where,
-                "found field " + quote_text(address) + ", expected an address such as \"/image/spp\"");
-  }
-  FieldSetter{text, where}.set(address, FieldInfo{.key = "", .doc = ""}, scene);
+  check_address(address, where);
+  const auto set = [&]<class T>(const FieldInfo& info, T& field) {
+    FieldReader::read(json_from_text<T>(text, where), info, where, field);
+    check_field(field, info, where);
+  };
+  FieldWalk{where}.visit(address, FieldInfo{.key = "", .doc = ""}, scene, set);
 }
 
 }  // namespace voxlume

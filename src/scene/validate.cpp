@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/animation.h"
 #include "scene/field_check.h"
 #include "voxlume/error.h"
 
@@ -132,6 +133,10 @@ void check_field(const std::string& value, const FieldInfo& info, const std::str
   refuse(where, "found " + quote_text(value) + ", expected one of " + join_words(available));
 }
 
+void check_field(const AnimationKey& value, const FieldInfo& info, const std::string& where) {
+  check_field(value.time_s, info, child_address(where, "0"));
+}
+
 void fail_count(std::size_t count, const FieldInfo& info, const std::string& where) {
   refuse(where, fmt::format("found {} elements, expected at most {}", count, info.max_count));
 }
@@ -149,6 +154,7 @@ void validate_scene(const SceneDescription& scene, const std::string& where) {
   check_camera(scene.camera, at("camera"));
   if (scene.clip) check_clip(*scene.clip, at("clip"));
   check_image(scene.image, at("image"));
+  if (scene.animation) check_animation(*scene.animation, at("animation"));
 }
 
 }  // namespace voxlume

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "cli_fixture.h"
@@ -67,6 +68,8 @@ TEST_F(CliTest, CompareOfIdenticalPictures) {
   EXPECT_EQ(result["rmse"], 0.0);
   EXPECT_TRUE(result["psnr"].is_null());
   EXPECT_NEAR(result["ssim"].get<double>(), 1.0, 1e-9);
+  EXPECT_EQ(result["flip"], 0.0);
+  EXPECT_EQ(result["flip_hdr"], 0.0);
 }
 
 TEST_F(CliTest, CompareOfDifferentPictures) {
@@ -80,11 +83,47 @@ TEST_F(CliTest, CompareOfDifferentPictures) {
   EXPECT_GT(result["rmse"].get<double>(), 0);
   EXPECT_GT(result["psnr"].get<double>(), 5);
   EXPECT_EQ(read_image(folder_ / "e.png").width, 24);
-  EXPECT_THAT(run({"compare", "a.exr", "b.exr"}).out, HasSubstr("psnr "));
+  const RunResult all = run({"compare", "a.exr", "b.exr"});
+  for (const char* name : {"rmse ", "psnr ", "psnr_hdr ", "ssim ", "flip ", "flip_hdr "}) {
+    EXPECT_THAT(all.out, HasSubstr(name));
+  }
   ASSERT_EQ(run({"render", "ball.nrrd", "-o", "small.exr", "--size", "8x8", "--spp", "1"}).code, 0);
   const RunResult sizes = run({"compare", "a.exr", "small.exr"});
   EXPECT_EQ(sizes.code, 2);
   EXPECT_THAT(sizes.err, HasSubstr("is 8 x 8 pixels, expected 24 x 20"));
+}
+
+// A mid-grey picture against one that is black on the left: the right half is equal.
+TEST_F(CliTest, ErrorMapsOfFlip) {
+  Image grey(60, 40), half(60, 40);
+  for (Image* image : {&grey, &half}) std::fill(image->rgba.begin(), image->rgba.end(), 0.2f);
+  for (int y = 0; y < 40; ++y) std::fill_n(half.pixel(0, y), 4 * 30, 0.0f);
+  write_exr(grey, folder_ / "grey.exr");
+  write_exr(half, folder_ / "half.exr");
+  for (const char* kind : {"flip", "flip_hdr"}) {
+    const RunResult r = run({"compare", "half.exr", "grey.exr", "--metric", kind, "--json", "--error-map",
+                             "e.png", "--error-map-kind", kind});
+    ASSERT_EQ(r.code, 0) << r.err;
+    const double mean = json::parse(r.out)[kind].get<double>();
+    EXPECT_GT(mean, 0.3);
+    EXPECT_LT(mean, 0.6);
+    const Image map = read_image(folder_ / "e.png");
+    ASSERT_EQ(map.width, 60);
+    EXPECT_GT(map.pixel(5, 20)[0], 0.5f);
+    EXPECT_EQ(map.pixel(55, 20)[0], 0.0f);
+  }
+}
+
+TEST_F(CliTest, HdrFlipNeedsALitReference) {
+  write_exr(Image(12, 12), folder_ / "black.exr");
+  const RunResult r = run({"compare", "black.exr", "black.exr", "--json"});
+  ASSERT_EQ(r.code, 0) << r.err;
+  EXPECT_TRUE(json::parse(r.out)["flip_hdr"].is_null());
+  const RunResult map =
+      run({"compare", "black.exr", "black.exr", "--error-map", "e.png", "--error-map-kind", "flip_hdr"});
+  EXPECT_EQ(map.code, 2);
+  EXPECT_THAT(map.err, HasSubstr("black reference"));
+  EXPECT_FALSE(exists("e.png"));
 }
 
 }  // namespace

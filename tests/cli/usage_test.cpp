@@ -147,17 +147,24 @@ TEST_F(CliRefuses, WhatIsNotBuiltYetByName) {
       flags({"--denoise", "wrls"}, "error: --denoise wrls is not built yet; available: none\n"),
       flags({"--denoise", "decoupled"}, "--denoise decoupled is not built yet; available: none"),
       flags({"--denoise", "svgf"}, "--denoise svgf is not built yet; available: none"),
-      flags({"--turntable", "36"}, "--turntable is not built yet"),
       flags({"--important", "100:200"}, "--important is not built yet"),
       flags({"--visibility", "1,1,1,1"}, "--visibility is not built yet"),
       flags({"--visibility-lights", "first"}, "--visibility-lights first is not built yet; available: off"),
       flags({"--visibility-lights", "all"}, "--visibility-lights all is not built yet; available: off"),
-      {{"compare", "a.png", "b.png", "--metric", "flip"},
-       "--metric flip is not built yet; available: rmse, psnr"},
       {{"view"}, "view is not built yet; available: render"},
       {{"view", "ball.nrrd", "--port", "8080"}, "view is not built yet"},
   });
   EXPECT_EQ(render("ball.nrrd", "o.png", {"--visibility-lights", "off", "--denoise", "none"}).code, 0);
+}
+
+TEST_F(CliRefuses, WaysToCompare) {
+  expect_refused({
+      {{"compare", "a.png", "b.png", "--metric", "flop"},
+       "--metric: found \"flop\", expected some of rmse, psnr, psnr_hdr, ssim, flip, flip_hdr"},
+      {{"compare", "a.png", "b.png", "--error-map", "e.png", "--error-map-kind", "ratio"},
+       "--error-map-kind: found \"ratio\", expected one of difference, flip, flip_hdr"},
+      {{"compare", "a.png", "b.png", "--error-map-kind", "flip"}, "--error-map-kind requires --error-map"},
+  });
 }
 
 TEST_F(CliRefuses, Outputs) {

@@ -9,15 +9,23 @@ namespace {
 
 struct Traced {
   std::vector<PixelSample> samples;
+  std::vector<RadianceParts> parts;
   TraceCounters counters;
 };
 
+bool same(const RadianceParts& a, const RadianceParts& b) {
+  return a.fx_diffuse == b.fx_diffuse && a.fx_specular == b.fx_specular && a.fl == b.fl &&
+         a.later == b.later && a.dense == b.dense;
+}
+
 Traced trace(const CompiledScene& scene, int spp) {
-  const SceneView& view = scene.view();
+  SceneView view = scene.view();
+  view.keeps_parts = true;
   const TileRect tile{0, 0, view.width, view.height};
   Traced out;
   out.samples.resize(static_cast<std::size_t>(tile.pixel_count()) * spp);
-  trace_tile(view, tile, 3, 3 + spp, out.samples, out.counters);
+  out.parts.resize(out.samples.size());
+  trace_tile(view, tile, 3, 3 + spp, out.samples, out.parts, out.counters);
   return out;
 }
 
@@ -41,8 +49,9 @@ TEST(Simd, EveryModeIsTheScalarPicture) {
       std::size_t differing = 0;
       for (std::size_t i = 0; i < traced.samples.size(); ++i) {
         const PixelSample &a = traced.samples[i], &b = expected.samples[i];
-        differing += !(a.radiance == b.radiance && a.alpha == b.alpha && a.albedo == b.albedo &&
-                       a.normal == b.normal && a.depth_mm == b.depth_mm);
+        differing +=
+            !(a.radiance == b.radiance && a.alpha == b.alpha && a.albedo == b.albedo &&
+              a.normal == b.normal && a.depth_mm == b.depth_mm && same(traced.parts[i], expected.parts[i]));
       }
       EXPECT_EQ(differing, 0u) << mode.name << ", " << simd_name(target);
       ++compared;

@@ -146,7 +146,7 @@ inline SceneDescription as_tested(SceneDescription description) {
 inline std::vector<double> row_luminances(const SceneView& scene, int x0, int x1, int y, int spp,
                                           TraceCounters& counters) {
   std::vector<PixelSample> samples(static_cast<std::size_t>(x1 - x0) * spp);
-  trace_tile(scene, {x0, y, x1, y + 1}, 0, spp, samples, counters);
+  trace_tile(scene, {x0, y, x1, y + 1}, 0, spp, samples, {}, counters);
   std::vector<double> out;
   for (const PixelSample& sample : samples) out.push_back(luminance(sample.radiance));
   return out;

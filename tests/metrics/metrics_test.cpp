@@ -3,29 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
+#include "pictures.h"
 #include "tonemap/srgb.h"
 #include "voxlume/error.h"
 
-namespace voxlume {
+namespace voxlume::test {
 namespace {
-
-Image constant(int width, int height, float value) {
-  Image image(width, height);
-  for (std::size_t i = 0; i < image.pixel_count(); ++i) {
-    for (int c = 0; c < 3; ++c) image.rgba[4 * i + c] = value;
-    image.rgba[4 * i + 3] = 1;
-  }
-  return image;
-}
-
-Image noise(int width, int height, unsigned seed) {
-  Image image = constant(width, height, 0);
-  std::mt19937 generator(seed);
-  for (float& value : image.rgba) value = static_cast<float>(generator()) * 0x1p-32f;
-  return image;
-}
 
 TEST(Rmse, HandComputed) {
   Image a = constant(2, 1, 0), b = constant(2, 1, 0);
@@ -34,6 +18,12 @@ TEST(Rmse, HandComputed) {
   EXPECT_DOUBLE_EQ(rmse(a, b), 1.0);  // (1 + 4 + 1) / 6
   EXPECT_DOUBLE_EQ(rmse(b, a), 1.0);
   EXPECT_EQ(rmse(a, a), 0.0);
+}
+
+TEST(Rmse, OfDisplayValues) {
+  const Image a = constant(3, 2, linear_from_srgb(0.5f)), b = constant(3, 2, linear_from_srgb(0.6f));
+  EXPECT_NEAR(rmse(a, b, PixelValues::kDisplay), 0.1, 1e-6);
+  EXPECT_EQ(rmse(constant(2, 2, 3), constant(2, 2, 5), PixelValues::kDisplay), 0.0);
 }
 
 TEST(Psnr, HandComputedOnDisplayValues) {
@@ -141,4 +131,4 @@ TEST(Metrics, AlphaDoesNotCount) {
 }
 
 }  // namespace
-}  // namespace voxlume
+}  // namespace voxlume::test

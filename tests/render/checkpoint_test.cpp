@@ -79,6 +79,10 @@ TEST_F(Checkpoint, FilmWithoutLayers) {
   plain.tile_size = 1;
   save_checkpoint(plain, "", path());
   EXPECT_EQ(test::film_bytes(load_checkpoint(path(), "").film), test::film_bytes(plain.film));
+
+  std::string damaged = test::read_bytes(path());
+  damaged[sizeof(std::uint64_t) * 3] ^= 2;  // the tile size: still possible, but not what was written
+  EXPECT_EQ(code_of(damaged), ErrorCode::kBadFormat);
 }
 
 TEST_F(Checkpoint, LiesBesideThePicture) {

@@ -1,10 +1,14 @@
 // What is chosen when the user says nothing: presets, lights, camera target.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <filesystem>
 #include <limits>
 
 #include "grid/phantom.h"
+#include "image_io/image_io.h"
+#include "integrator/path_tracer.h"
 #include "scene/compile.h"
 #include "scene/presets.h"
 #include "scene/resolve.h"
@@ -176,6 +180,102 @@ TEST(Compile, EstimatorsWithMinimaTakeMacrocellsAndScalarCode) {
   scene.render.transmittance = TransmittanceEstimator::kRatio;
   EXPECT_EQ(CompiledScene(scene, phantom, statistics).view().medium.accelerator.kind,
             AcceleratorKind::kHierarchy);
+}
+
+/// What rays see of two scenes: majorants and extinction along lines, lights, camera.
+void expect_same_view(const SceneView& a, const SceneView& b) {
+  EXPECT_EQ(a.camera.eye_mm.x, b.camera.eye_mm.x);
+  EXPECT_EQ(a.camera.half_width, b.camera.half_width);
+  EXPECT_EQ(a.lights.light_count, b.lights.light_count);
+  EXPECT_EQ(a.lights.environment.axis_x.y, b.lights.environment.axis_x.y);
+  EXPECT_EQ(a.clip_world.lower.x, b.clip_world.lower.x);
+  EXPECT_EQ(a.scattering.g, b.scattering.g);
+  EXPECT_EQ(a.dense_mu_t, b.dense_mu_t);
+  EXPECT_EQ(a.frame, b.frame);
+  EXPECT_EQ(a.medium.accelerator.kind, b.medium.accelerator.kind);
+  Film of_a(24, 24, {}), of_b(24, 24, {});
+  TraceCounters counters_a, counters_b;
+  render_tile(a, {0, 0, 24, 24}, 0, 4, of_a, counters_a);
+  render_tile(b, {0, 0, 24, 24}, 0, 4, of_b, counters_b);
+  EXPECT_EQ(counters_a.tracking_steps, counters_b.tracking_steps);
+  for (int i = 0; i < 24 * 24; ++i)
+    EXPECT_EQ(Vec3f(of_a.mean(i % 24, i / 24)).x, Vec3f(of_b.mean(i % 24, i / 24)).x);
+}
+
+TEST(Compile, AnUpdatedSceneIsTheSceneCompiledAnew) {
+  const Volume phantom = make_head_phantom();
+  const VolumeStatistics statistics = compute_statistics(make_grid_view(phantom));
+  SceneDescription scene = resolve({}, phantom, statistics);
+  scene.image.width = scene.image.height = 24;
+  CompiledScene updated(scene, phantom, statistics);
+  const auto change = [&](auto edit) {
+    edit(scene);
+    updated.update(scene);
+    expect_same_view(updated.view(), CompiledScene(scene, phantom, statistics).view());
+    EXPECT_EQ(updated.description(), scene);
+  };
+  change([](SceneDescription& s) { s.camera.azimuth_deg = 40; });
+  change([](SceneDescription& s) { s.lights->pop_back(); });
+  change([](SceneDescription& s) { s.environment->rotation_deg = 20; });
+  change([](SceneDescription& s) { s.environment->intensity = 2; });
+  change([](SceneDescription& s) {
+    s.clip = ClipDescription{{-1e30, 20}, {-1e30, 1e30}, {-1e30, 1e30}, true};
+  });
+  change([](SceneDescription& s) { s.clip.reset(); });
+  change([](SceneDescription& s) { s.transfer.points = {{0, 0.0, {}, {}, {}}, {900, 0.3, {}, {}, {}}}; });
+  change([](SceneDescription& s) { s.transfer.density_scale = 0.2; });
+  change([](SceneDescription& s) { s.material.anisotropy = 0.5; });
+  change([](SceneDescription& s) { s.render.accelerator = "octree"; });
+  change([](SceneDescription& s) { s.render.frame = 9; });
+  const float eye = updated.view().camera.eye_mm.x;
+  SceneDescription wrong = scene;
+  wrong.camera.azimuth_deg = -70;
+  wrong.lights->at(0).position_mm = wrong.lights->at(0).target_mm = Double3{0, 0, 0};
+  EXPECT_THROW(updated.update(wrong), Error);
+  EXPECT_EQ(updated.view().camera.eye_mm.x, eye);
+  EXPECT_EQ(updated.description(), scene);
+}
+
+TEST(Compile, AnUpdateKeepsTheTablesOfTheEnvironmentsPicture) {
+  const auto path =
+      std::filesystem::temp_directory_path() / ("voxlume-sky-" + std::to_string(::getpid()) + ".exr");
+  Image sky(8, 4);
+  for (std::size_t i = 0; i < sky.rgba.size(); ++i) sky.rgba[i] = static_cast<float>(i % 7) * 0.3f;
+  write_exr(sky, path);
+  const Volume phantom = make_head_phantom();
+  const VolumeStatistics statistics = compute_statistics(make_grid_view(phantom));
+  SceneDescription scene = resolve({}, phantom, statistics);
+  scene.image.width = scene.image.height = 24;
+  scene.environment->image = path.string();
+  CompiledScene updated(scene, phantom, statistics);
+  const Vec3f* const texels = updated.view().lights.environment.texels;
+  const auto change = [&](auto edit) {
+    edit(scene);
+    updated.update(scene);
+    expect_same_view(updated.view(), CompiledScene(scene, phantom, statistics).view());
+  };
+  change([](SceneDescription& s) { s.environment->rotation_deg = 70; });
+  change([](SceneDescription& s) { s.environment->attached_to = Attachment::kCamera; });
+  change([](SceneDescription& s) { s.camera.elevation_deg = 60; });
+  EXPECT_EQ(updated.view().lights.environment.texels, texels);
+  change([](SceneDescription& s) { s.environment->intensity = 0.1; });
+  change([](SceneDescription& s) { s.environment->image.clear(); });
+  std::filesystem::remove(path);
+}
+
+TEST(Resolve, TheFramingStaysWhileAClipBoxMoves) {
+  const Volume phantom = make_head_phantom();
+  const VolumeStatistics statistics = compute_statistics(make_grid_view(phantom));
+  const SceneDescription whole = resolve({}, phantom, statistics);
+  SceneDescription cut = whole;
+  cut.clip.emplace();
+  cut.clip->z_mm = {-20, 20};
+  const CameraView a = CompiledScene(whole, phantom, statistics).view().camera;
+  const CameraView b = CompiledScene(resolve(cut, phantom, statistics), phantom, statistics).view().camera;
+  EXPECT_EQ(a.eye_mm.y, b.eye_mm.y);
+  SceneDescription cut_at_once;
+  cut_at_once.clip = cut.clip;
+  EXPECT_LT(*resolve(cut_at_once, phantom, statistics).camera.fit_radius_mm, *whole.camera.fit_radius_mm);
 }
 
 }  // namespace

@@ -32,8 +32,8 @@ inline SceneDescription full_scene() {
   s.lights = {sun, lamp, panel};
   s.environment = EnvironmentDescription{"sky.exr", Color{{0.5f, 0.5f, 1}}, 2, 45, Attachment::kCamera, true};
   s.background = BackgroundDescription{BackgroundKind::kEnvironment, Color{{0.25f, 0, 0}}};
-  s.camera = {Projection::kOrthographic, 30,    -10, 5,     1.5, 28, Double3{1, 2, 3}, Double3{4, 5, 6},
-              Double3{0, 1, 0},          200.0, 0.5, 300.0, 3};
+  s.camera = {Projection::kOrthographic, 30,    -10, 5,     1.5, 28,   Double3{1, 2, 3}, Double3{4, 5, 6},
+              Double3{0, 1, 0},          200.0, 0.5, 300.0, 3,   175.0};
   s.clip = ClipDescription{{-10, 1e30}, {-1e30, 20}, {0, 5}, true};
   s.image = {640, 480, 16, 2.5, 0.01, PixelFilter::kBox, 0.5, 1.25, ToneCurve::kSrgb, {"depth", "albedo"}};
   s.render.seed = 18446744073709551615ull;
@@ -51,6 +51,16 @@ inline SceneDescription full_scene() {
   s.render.shadow_roulette = 0.25;
   s.render.simd = "scalar";
   s.render.light_sampling = "light";
+  const auto dim = s.transfer.points, bright = std::vector<TransferPoint>{dim.begin(), dim.begin() + 1};
+  s.animation = AnimationDescription{
+      25,
+      100,
+      TurntableDescription{4, -1.5},
+      {{"/camera/zoom", Interpolation::kSmooth, {{0, 1.0}, {2.5, 1.0 / 3.0}}},
+       {"/lights/0/color", Interpolation::kLinear, {{0, "#ff8000"}, {1, Color{{2, 0.1f, 0}}}}},
+       {"/lights/1/position_mm", Interpolation::kLinear, {{-1, std::vector<double>{1, 2, 3.5}}}},
+       {"/clip/blocks_light", Interpolation::kStep, {{0, true}, {0, false}}},
+       {"/transfer/points", Interpolation::kLinear, {{0, dim}, {3, bright}}}}};
   return s;
 }
 

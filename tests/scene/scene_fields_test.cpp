@@ -85,6 +85,9 @@ TEST(FullScene, HasNoDefaults) {
   expect_no_defaults(*s.clip);
   expect_no_defaults(s.image);
   expect_no_defaults(s.render, {"denoise"});
+  expect_no_defaults(*s.animation);
+  expect_no_defaults(*s.animation->turntable);
+  expect_no_defaults(s.animation->tracks.front());
 }
 
 /// All fields of T are distinct and documented.
@@ -115,6 +118,9 @@ TEST(FieldTable, IsCompleteAndDocumented) {
   expect_complete_table<ClipDescription>();
   expect_complete_table<ImageDescription>();
   expect_complete_table<RenderDescription>();
+  expect_complete_table<AnimationDescription>();
+  expect_complete_table<TurntableDescription>();
+  expect_complete_table<AnimationTrack>();
 }
 
 TEST(SetSceneField, ReadsTextByTheTypeOfTheField) {

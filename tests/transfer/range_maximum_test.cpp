@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <hwy/targets.h>
-
+#include "support/every_target.h"
 #include "support/transfers.h"
 #include "transfer/transfer_function.h"
 
@@ -11,23 +10,11 @@ namespace voxlume {
 namespace {
 
 using test::CurvePoints;
+using test::for_every_target;
 using test::mu_t_function;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kMost = std::numeric_limits<float>::max();
-
-/// Runs `body` once for every instruction set that this machine and this build have.
-template <class Body>
-void for_every_target(Body&& body) {
-  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-    SCOPED_TRACE(hwy::TargetName(target));
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    body();
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().DeInit();
-  }
-}
 
 std::vector<TransferDescription> functions(Rng& rng) {
   std::vector<TransferDescription> out{mu_t_function({{0, 1}}),
