@@ -24,7 +24,7 @@ struct RenderState {
   Film film;
   TraceCounters counters;
   double elapsed_s = 0;  ///< first to last sample, without the time between interruption and resumption
-  int tile_size = 16;    ///< edge of a tile in pixels, 1..65536
+  int tile_size = 32;    ///< edge of a tile in pixels, 1..65536
 };
 
 struct RenderLoopOptions {
