@@ -16,7 +16,7 @@ inline const WordChoices kHierarchyRuleWords{{"cost", "thresholds"}, {}};
 inline const WordChoices kSimdWords{{"auto", "scalar", "sse4", "avx2", "avx512", "neon"}, {}};
 inline const WordChoices kDenoiseWords{{"none"}, {"decoupled", "wrls", "svgf"}};
 inline const WordChoices kLightSamplingWords{{"mis", "light", "direction"}, {}};
-inline const WordChoices kAovWords{{"alpha", "depth", "normal", "albedo", "samples", "variance"}, {}};
+inline const WordChoices kAovWords{{"alpha", "depth", "normal", "albedo", "samples", "variance", "denoise"}, {}};
 
 inline StructInfo struct_info(Struct<ImageDescription>) {
   return {"Image",
