@@ -8,24 +8,22 @@
 #include "cli_fixture.h"
 #include "denoise/denoiser.h"
 #include "image_io/image_io.h"
+#include "image_io/picture_text.h"
 #include "render/picture_denoiser.h"
-#include "voxlume/error.h"
 
 namespace voxlume::test {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::ElementsAre;
 using testing::HasSubstr;
 
 class CliDenoise : public CliTest {
  protected:
-  /// f-0.exr to f-2.exr: the phantom from three sides near each other.
-  void render_frames(const std::string& pattern = "f-#.exr", const std::vector<std::string>& more = {}) {
-    std::vector<std::string> arguments{"render",   "phantom", "-o",          pattern,  "--size", "48x32",
-                                       "--spp",    "4",       "--turntable", "12",     "--fps",  "8",
-                                       "--frames", "0:2",     "--aov",       "denoise"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
+  /// Frames 0 to 2 of a volume seen from three sides near each other.
+  void render_frames(const std::string& pattern, const std::string& volume) {
+    const std::vector<std::string> arguments{"render",   volume, "-o",          pattern,  "--size", "48x32",
+                                             "--spp",    "4",    "--turntable", "12",     "--fps",  "8",
+                                             "--frames", "0:2",  "--aov",       "denoise"};
     const RunResult r = run(arguments);
     ASSERT_EQ(r.code, 0) << r.err;
   }
@@ -44,15 +42,17 @@ class CliDenoise : public CliTest {
 };
 
 TEST_F(CliDenoise, EveryMethodDoesWhatTheLibraryDoes) {
-  render_frames();
+  render_frames("f-#.exr", "phantom");
   for (const DenoiserKind& kind : denoiser_kinds()) {
     if (kind.name == "oidn") continue;  // where it is installed is not known
     const std::string name(kind.name);
     SCOPED_TRACE(name);
     const RunResult r = denoise("f-#.exr", name + "-##.exr", {"--method", name});
     ASSERT_EQ(r.code, 0) << r.err;
-    EXPECT_THAT(r.err, name == "asvgf" ? HasSubstr("warning: pictures hold no gradient samples")
-                                       : testing::Eq(std::string()));
+    EXPECT_EQ(line_count(r.err), name == "asvgf" ? 1 : 0) << r.err;
+    if (name == "asvgf") {
+      EXPECT_THAT(r.err, HasSubstr("warning: pictures hold no gradient samples"));
+    }
     PictureDenoiser library(kind);
     for (const char* k : {"0", "1", "2"}) {
       const Image in = picture(std::string("f-") + k + ".exr");
@@ -73,10 +73,10 @@ TEST_F(CliDenoise, EveryMethodDoesWhatTheLibraryDoes) {
 
 TEST_F(CliDenoise, LayersDoNotChangeThePicture) {
   const std::vector<std::string> frame{"--turntable", "1", "--frames", "1"};
-  ASSERT_EQ(render("phantom", "plain.exr", frame).code, 0);
+  ASSERT_EQ(render("ball.nrrd", "plain.exr", frame).code, 0);
   std::vector<std::string> with = frame;
   with.insert(with.end(), {"--aov", "denoise,depth,alpha"});
-  ASSERT_EQ(render("phantom", "layers.exr", with).code, 0);
+  ASSERT_EQ(render("ball.nrrd", "layers.exr", with).code, 0);
   const Image plain = picture("plain.exr"), layers = picture("layers.exr");
   EXPECT_EQ(plain.rgba, layers.rgba);
   EXPECT_EQ(layers.layers.size(), 21u);
@@ -97,8 +97,8 @@ TEST_F(CliDenoise, LayersDoNotChangeThePicture) {
 }
 
 TEST_F(CliDenoise, APictureIsDevelopedAsItsSceneSays) {
-  ASSERT_EQ(render("phantom", "f.exr", {"--aov", "denoise"}).code, 0);
-  ASSERT_EQ(render("phantom", "g.exr", {"--aov", "denoise", "--exposure", "2"}).code, 0);
+  ASSERT_EQ(render("ball.nrrd", "f.exr", {"--aov", "denoise"}).code, 0);
+  ASSERT_EQ(render("ball.nrrd", "g.exr", {"--aov", "denoise", "--exposure", "2"}).code, 0);
   for (const char* name : {"f", "g"}) {
     const std::string n(name);
     ASSERT_EQ(denoise(n + ".exr", n + ".png").code, 0);
@@ -110,11 +110,11 @@ TEST_F(CliDenoise, APictureIsDevelopedAsItsSceneSays) {
   for (const float v : f.rgba) f_sum += v;
   for (const float v : g.rgba) g_sum += v;
   EXPECT_GT(g_sum, 1.2 * f_sum);
-  EXPECT_EQ(f.metadata.at("voxlume:denoiser"), "decoupled");
+  EXPECT_EQ(picture_text(folder_ / "f.png", "voxlume:denoiser"), "decoupled");
 }
 
 TEST_F(CliDenoise, TransparentPicturesStayTransparent) {
-  ASSERT_EQ(render("phantom", "f.exr", {"--aov", "denoise", "--background", "transparent"}).code, 0);
+  ASSERT_EQ(render("ball.nrrd", "f.exr", {"--aov", "denoise", "--background", "transparent"}).code, 0);
   ASSERT_EQ(denoise("f.exr", "o.exr", {"--method", "bilateral"}).code, 0);
   const Image out = picture("o.exr");
   EXPECT_EQ(out.pixel(0, 0)[3], 0);
@@ -124,7 +124,7 @@ TEST_F(CliDenoise, TransparentPicturesStayTransparent) {
 }
 
 TEST_F(CliDenoise, SequencesAreThereWithoutGaps) {
-  render_frames("f-##.exr");
+  render_frames("f-##.exr", "ball.nrrd");
   fs::rename(folder_ / "f-02.exr", folder_ / "f-03.exr");
   write("f-4.exr", "of another pattern");
   write("f-xx.exr", "");
@@ -140,7 +140,7 @@ TEST_F(CliDenoise, SequencesAreThereWithoutGaps) {
 }
 
 TEST_F(CliDenoise, NothingIsReplacedUnasked) {
-  render_frames();
+  render_frames("f-#.exr", "ball.nrrd");
   const std::string before = read("f-1.exr");
   write("o-2.exr", "mine");
   expect_refused(denoise("f-#.exr", "o-#.exr"), "\"o-2.exr\" is there; --overwrite replaces it");
@@ -155,7 +155,7 @@ TEST_F(CliDenoise, NothingIsReplacedUnasked) {
 }
 
 TEST_F(CliDenoise, RefusesWhatItCannotDo) {
-  ASSERT_EQ(render("phantom", "f.exr", {"--aov", "depth,normal,albedo"}).code, 0);
+  ASSERT_EQ(render("ball.nrrd", "f.exr", {"--aov", "depth,normal,albedo"}).code, 0);
   expect_refused(denoise("f.exr", "o.exr"), "render the picture with --aov denoise");
   expect_refused(denoise("f.exr", "o.exr", {"--method", "wrls"}), "with --aov denoise");
   expect_refused(denoise("f.exr", "o.exr", {"--method", "dccoupled"}),
@@ -172,7 +172,7 @@ TEST_F(CliDenoise, RefusesWhatItCannotDo) {
 }
 
 TEST_F(CliDenoise, DamagedPicturesAreOneLine) {
-  render_frames();
+  render_frames("f-#.exr", "ball.nrrd");
   const std::string bytes = read("f-1.exr");
   write("f-1.exr", bytes.substr(0, bytes.size() / 2));
   const RunResult r = denoise("f-#.exr", "o-#.exr");
@@ -205,7 +205,7 @@ TEST_F(CliDenoise, ListsItsMethods) {
 }
 
 TEST_F(CliDenoise, StopsBetweenPictures) {
-  render_frames();
+  render_frames("f-#.exr", "ball.nrrd");
   for (int k = 3; k < 200; ++k) {
     fs::copy_file(folder_ / "f-0.exr", folder_ / ("f-" + std::to_string(k) + ".exr"));
   }
@@ -220,7 +220,9 @@ TEST_F(CliDenoise, StopsBetweenPictures) {
   EXPECT_FALSE(exists("o-199.exr"));
   for (const auto& entry : fs::directory_iterator(folder_)) {
     const std::string name = entry.path().filename().string();
-    if (name.starts_with("o-")) EXPECT_NO_THROW(read_image(entry.path())) << name;
+    if (name.starts_with("o-")) {
+      EXPECT_NO_THROW(read_image(entry.path())) << name;
+    }
     EXPECT_EQ(name.find("tmp"), std::string::npos) << name;
   }
 }
