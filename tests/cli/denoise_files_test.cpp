@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-class CliDenoise : public CliTest {
+class CliDenoiseFiles : public CliTest {
  protected:
   /// Frames 0 to 2 of a volume seen from three sides near each other.
   void render_frames(const std::string& pattern, const std::string& volume) {
@@ -41,7 +41,7 @@ class CliDenoise : public CliTest {
   }
 };
 
-TEST_F(CliDenoise, EveryMethodDoesWhatTheLibraryDoes) {
+TEST_F(CliDenoiseFiles, EveryMethodDoesWhatTheLibraryDoes) {
   render_frames("f-#.exr", "phantom");
   for (const DenoiserKind& kind : denoiser_kinds()) {
     if (kind.name == "oidn") continue;  // where it is installed is not known
@@ -71,7 +71,7 @@ TEST_F(CliDenoise, EveryMethodDoesWhatTheLibraryDoes) {
   }
 }
 
-TEST_F(CliDenoise, LayersDoNotChangeThePicture) {
+TEST_F(CliDenoiseFiles, LayersDoNotChangeThePicture) {
   const std::vector<std::string> frame{"--turntable", "1", "--frames", "1"};
   ASSERT_EQ(render("ball.nrrd", "plain.exr", frame).code, 0);
   std::vector<std::string> with = frame;
@@ -96,7 +96,7 @@ TEST_F(CliDenoise, LayersDoNotChangeThePicture) {
   }
 }
 
-TEST_F(CliDenoise, APictureIsDevelopedAsItsSceneSays) {
+TEST_F(CliDenoiseFiles, APictureIsDevelopedAsItsSceneSays) {
   ASSERT_EQ(render("ball.nrrd", "f.exr", {"--aov", "denoise"}).code, 0);
   ASSERT_EQ(render("ball.nrrd", "g.exr", {"--aov", "denoise", "--exposure", "2"}).code, 0);
   for (const char* name : {"f", "g"}) {
@@ -113,7 +113,7 @@ TEST_F(CliDenoise, APictureIsDevelopedAsItsSceneSays) {
   EXPECT_EQ(picture_text(folder_ / "f.png", "voxlume:denoiser"), "decoupled");
 }
 
-TEST_F(CliDenoise, TransparentPicturesStayTransparent) {
+TEST_F(CliDenoiseFiles, TransparentPicturesStayTransparent) {
   ASSERT_EQ(render("ball.nrrd", "f.exr", {"--aov", "denoise", "--background", "transparent"}).code, 0);
   ASSERT_EQ(denoise("f.exr", "o.exr", {"--method", "bilateral"}).code, 0);
   const Image out = picture("o.exr");
@@ -123,7 +123,7 @@ TEST_F(CliDenoise, TransparentPicturesStayTransparent) {
   EXPECT_EQ(picture("o.png").pixel(0, 0)[3], 0);
 }
 
-TEST_F(CliDenoise, SequencesAreThereWithoutGaps) {
+TEST_F(CliDenoiseFiles, SequencesAreThereWithoutGaps) {
   render_frames("f-##.exr", "ball.nrrd");
   fs::rename(folder_ / "f-02.exr", folder_ / "f-03.exr");
   write("f-4.exr", "of another pattern");
@@ -139,7 +139,7 @@ TEST_F(CliDenoise, SequencesAreThereWithoutGaps) {
   EXPECT_TRUE(exists("o-0.exr") && exists("o-1.exr") && !exists("o-3.exr"));
 }
 
-TEST_F(CliDenoise, NothingIsReplacedUnasked) {
+TEST_F(CliDenoiseFiles, NothingIsReplacedUnasked) {
   render_frames("f-#.exr", "ball.nrrd");
   const std::string before = read("f-1.exr");
   write("o-2.exr", "mine");
@@ -154,7 +154,7 @@ TEST_F(CliDenoise, NothingIsReplacedUnasked) {
   EXPECT_EQ(read("f-1.exr"), before);
 }
 
-TEST_F(CliDenoise, RefusesWhatItCannotDo) {
+TEST_F(CliDenoiseFiles, RefusesWhatItCannotDo) {
   ASSERT_EQ(render("ball.nrrd", "f.exr", {"--aov", "depth,normal,albedo"}).code, 0);
   expect_refused(denoise("f.exr", "o.exr"), "render the picture with --aov denoise");
   expect_refused(denoise("f.exr", "o.exr", {"--method", "wrls"}), "with --aov denoise");
@@ -171,7 +171,7 @@ TEST_F(CliDenoise, RefusesWhatItCannotDo) {
   EXPECT_FALSE(exists("o.exr"));
 }
 
-TEST_F(CliDenoise, DamagedPicturesAreOneLine) {
+TEST_F(CliDenoiseFiles, DamagedPicturesAreOneLine) {
   render_frames("f-#.exr", "ball.nrrd");
   const std::string bytes = read("f-1.exr");
   write("f-1.exr", bytes.substr(0, bytes.size() / 2));
@@ -183,7 +183,7 @@ TEST_F(CliDenoise, DamagedPicturesAreOneLine) {
   EXPECT_FALSE(exists("o-1.exr"));
 }
 
-TEST_F(CliDenoise, PicturesOfOtherPrograms) {
+TEST_F(CliDenoiseFiles, PicturesOfOtherPrograms) {
   Image image(24, 20);
   for (std::size_t i = 0; i < image.rgba.size(); ++i)
     image.rgba[i] = i % 4 == 3 ? 1.0f : 0.5f + 0.3f * static_cast<float>(i * 7919 % 101) / 101;
@@ -194,7 +194,7 @@ TEST_F(CliDenoise, PicturesOfOtherPrograms) {
   expect_refused(denoise("x.exr", "p.exr", {"--method", "svgf"}), "layer \"normal\" is missing");
 }
 
-TEST_F(CliDenoise, ListsItsMethods) {
+TEST_F(CliDenoiseFiles, ListsItsMethods) {
   const RunResult r = run({"denoise", "--method", "list"});
   EXPECT_EQ(r.code, 0);
   EXPECT_EQ(line_count(r.out), static_cast<int>(denoiser_kinds().size()));
@@ -204,7 +204,7 @@ TEST_F(CliDenoise, ListsItsMethods) {
   }
 }
 
-TEST_F(CliDenoise, StopsBetweenPictures) {
+TEST_F(CliDenoiseFiles, StopsBetweenPictures) {
   render_frames("f-#.exr", "ball.nrrd");
   for (int k = 3; k < 200; ++k) {
     fs::copy_file(folder_ / "f-0.exr", folder_ / ("f-" + std::to_string(k) + ".exr"));
