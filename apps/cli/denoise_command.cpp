@@ -12,8 +12,8 @@
 #include "cli/terminal.h"
 #include "denoise/denoiser.h"
 #include "image_io/image_io.h"
+#include "render/file_denoiser.h"
 #include "render/frame_files.h"
-#include "render/picture_denoiser.h"
 #include "scene/field_info.h"
 #include "voxlume/error.h"
 
@@ -119,7 +119,7 @@ int denoise(const DenoiseRequest& request) {
   check_outputs(request, steps);
   InterruptGuard interrupt;
   const ThreadLimit threads(request.threads);
-  PictureDenoiser denoiser(method);
+  FileDenoiser denoiser(method);
   if (method.needs.gradients)
     print_warnings({fmt::format("pictures hold no gradient samples, without which {} is svgf", method.name)});
   ProgressLine progress;

@@ -22,8 +22,9 @@ std::pair<int, int> pixel_at(const TileRect& tile, int index) {
   return {tile.x0 + index % width, tile.y0 + index / width};
 }
 
-/// Follows many paths at once through some samples of every pixel of a tile: one in each lane of the vector
-/// tracker, and the next as soon as one ends. What happens at scatterings is scalar code.
+/// Follows many paths at once through some samples of every pixel of a tile. A lane of the vector tracker has
+/// the ray of one of them, and takes another's as soon as it is done; collisions wait until there is a vector
+/// of them to shade. The rest is scalar code.
 class LaneTracer {
  public:
   LaneTracer(const SceneView& scene, const TileRect& tile, int sample_begin, int sample_end,
@@ -34,19 +35,28 @@ class LaneTracer {
         samples_per_pixel_(sample_end - sample_begin),
         results_(results),
         parts_(parts),
-        counters_(counters) {}
+        counters_(counters) {
+    for (int path = 0; path < kPaths; ++path) idle_[path] = path;
+  }
 
   void trace() {
     for (int lane = 0; lane < Lanes::kCount; ++lane) start_next(lane);
     while (busy_lanes_ > 0) {
       track_lanes_(scene_.medium, lanes_);
-      for (int lane = 0; lane < Lanes::kCount; ++lane)
-        if (lanes_.state[lane] == Lanes::kDone) resume(lane);
+      resume_done();
+      if (next_job_ == results_.size()) drain();
     }
   }
 
  private:
   using Wait = CameraPath::Wait;
+  /// Beside those in the lanes, a batch of paths waits to be shaded.
+  static constexpr int kPaths = Lanes::kCount + ScatteringBatch::kCount;
+
+  struct Ready {
+    int path;
+    Wait wait;
+  };
 
   /// Samples of one pixel follow each other: neighbouring lanes take like ways.
   std::pair<int, int> pixel_of(std::size_t job) const {
@@ -59,7 +69,7 @@ class LaneTracer {
 
   /// Jobs are asked for in order.
   PrimaryRay primary_ray(std::size_t job) {
-    if (!fill_) {
+    if (!fill_primary_) {
       const auto [x, y] = pixel_of(job);
       return make_primary_ray(scene_, x, y, sample_of(job));
     }
@@ -67,52 +77,103 @@ class LaneTracer {
     if (at == 0) {
       for (std::size_t i = 0; i < PrimaryRayBatch::kCount; ++i) {
         const std::size_t one = std::min(job + i, results_.size() - 1);
-        std::tie(batch_.x[i], batch_.y[i]) = pixel_of(one);
-        batch_.sample[i] = static_cast<std::int32_t>(sample_of(one));
+        std::tie(primary_.x[i], primary_.y[i]) = pixel_of(one);
+        primary_.sample[i] = static_cast<std::int32_t>(sample_of(one));
       }
-      fill_(scene_, batch_);
+      fill_primary_(scene_, primary_);
     }
-    return batch_.at(at);
+    return primary_.at(at);
   }
 
-  void finish(int lane, std::size_t job) {
-    results_[job] = paths_[lane].sample();
-    if (!parts_.empty()) parts_[job] = paths_[lane].parts();
-  }
-
-  /// Gives a lane the next path that has a ray to track, if there is one.
+  /// Gives a lane the next ray, if there is one: of a path under way, else of a new one.
   void start_next(int lane) {
     lanes_.state[lane] = Lanes::kIdle;
+    if (ready_count_ > 0) {
+      const Ready next = ready_[--ready_count_];
+      return put(lane, next.path, next.wait);
+    }
     while (next_job_ < results_.size()) {
-      const std::size_t job = next_job_++;
-      const Wait wait = paths_[lane].begin(scene_, primary_ray(job), counters_);
+      const int path = idle_[idle_count_ - 1];
+      jobs_[path] = next_job_;
+      const Wait wait = paths_[path].begin(scene_, primary_ray(next_job_++), counters_);
       if (wait == Wait::kNothing) {
-        finish(lane, job);
+        store_result(path);
       } else {
-        jobs_[lane] = job;
-        ++busy_lanes_;
-        lanes_.put(lane, paths_[lane].ray(), wait == Wait::kTransmittance, paths_[lane].rng());
-        return;
+        --idle_count_;
+        return put(lane, path, wait);
       }
     }
+  }
+
+  void put(int lane, int path, Wait wait) {
+    ++busy_lanes_;
+    path_of_[lane] = path;
+    lanes_.put(lane, paths_[path].ray(), wait == Wait::kTransmittance, paths_[path].rng());
+  }
+
+  /// Finds the lanes that are done before it resumes any: without branches that mispredict.
+  void resume_done() {
+    int done[Lanes::kCount], count = 0;
+    for (int lane = 0; lane < Lanes::kCount; ++lane) {
+      done[count] = lane;
+      count += lanes_.state[lane] == Lanes::kDone ? 1 : 0;
+    }
+    for (int i = 0; i < count; ++i) resume(done[i]);
   }
 
   /// Takes what the tracker found and gives the lane its next ray.
   void resume(int lane) {
-    CameraPath& path = paths_[lane];
+    const int at = path_of_[lane];
+    CameraPath& path = paths_[at];
     counters_.tracking_steps += lanes_.steps[lane];
     counters_.majorant_violations += lanes_.violations[lane];
     path.rng() = lanes_.stream(lane);
     const Wait wait = lanes_.is_shadow[lane]
                           ? path.end_shadow_ray(scene_, lanes_.transmittance[lane], counters_)
-                          : path.end_flight(scene_, lanes_.collision(lane, path.ray().t_near), counters_);
-    if (wait == Wait::kNothing) {
-      finish(lane, jobs_[lane]);
-      --busy_lanes_;
-      start_next(lane);
-    } else {
-      lanes_.put(lane, path.ray(), wait == Wait::kTransmittance, path.rng());
+                          : path.end_flight(scene_, lanes_.collision(lane, path.ray().t_near));
+    --busy_lanes_;
+    if (wait == Wait::kFlight || wait == Wait::kTransmittance) return put(lane, at, wait);
+    if (wait == Wait::kScattering)
+      collect(at);
+    else
+      finish(at);
+    start_next(lane);
+  }
+
+  void store_result(int path) {
+    results_[jobs_[path]] = paths_[path].sample();
+    if (!parts_.empty()) parts_[jobs_[path]] = paths_[path].parts();
+  }
+  void finish(int path) {
+    store_result(path);
+    idle_[idle_count_++] = path;
+  }
+
+  /// Has the path's collision shaded, with others'.
+  void collect(int path) {
+    collided_[batch_.count] = path;
+    batch_.add(paths_[path].query());
+    if (batch_.count == ScatteringBatch::kCount) shade();
+  }
+
+  void shade() {
+    fill_scatterings_(scene_, batch_);
+    for (int i = 0; i < batch_.count; ++i) {
+      const int path = collided_[i];
+      const Wait wait = paths_[path].end_scattering(scene_, batch_.at(scene_, i), counters_);
+      if (wait == Wait::kNothing)
+        finish(path);
+      else
+        ready_[ready_count_++] = {path, wait};
     }
+    batch_.clear();
+  }
+
+  /// When no new path can fill the batch or a lane: what waits goes on.
+  void drain() {
+    shade();
+    for (int lane = 0; lane < Lanes::kCount && ready_count_ > 0; ++lane)
+      if (lanes_.state[lane] == Lanes::kIdle) start_next(lane);
   }
 
   const SceneView& scene_;
@@ -122,13 +183,20 @@ class LaneTracer {
   const std::span<RadianceParts> parts_;
   TraceCounters& counters_;
   const VectorTracker track_lanes_ = vector_tracker(scene_.simd, scene_.medium);
-  const FillPrimaryRays fill_ = vector_primary_rays(scene_.simd, scene_.camera);
-  PrimaryRayBatch batch_;
+  const FillPrimaryRays fill_primary_ = vector_primary_rays(scene_.simd, scene_.camera);
+  const FillScatterings fill_scatterings_ = vector_scatterings(scene_.simd);
+  PrimaryRayBatch primary_;
   std::size_t next_job_ = 0;
   int busy_lanes_ = 0;
   Lanes lanes_;
-  CameraPath paths_[Lanes::kCount];
-  std::size_t jobs_[Lanes::kCount];
+  int path_of_[Lanes::kCount];
+  CameraPath paths_[kPaths];
+  std::size_t jobs_[kPaths];
+  int idle_[kPaths], idle_count_ = kPaths;  ///< paths without a job
+  ScatteringBatch batch_;
+  int collided_[ScatteringBatch::kCount];  ///< paths of the batch
+  Ready ready_[ScatteringBatch::kCount];   ///< paths that wait for a lane
+  int ready_count_ = 0;
 };
 
 }  // namespace
@@ -139,21 +207,26 @@ PixelSample trace_camera_sample(const SceneView& scene, int x, int y, std::uint3
   CameraPath path;
   TrackingCounters tracking;
   Wait wait = path.begin(scene, make_primary_ray(scene, x, y, sample), counters);
-  while (wait != Wait::kNothing) {
-    wait = wait == Wait::kFlight
-               ? path.end_flight(scene,
-                                 sample_free_flight(scene.trackers.free_flight, scene.medium, path.ray(),
-                                                    path.rng(), tracking),
-                                 counters)
-               : path.end_shadow_ray(scene,
-                                     estimate_transmittance(scene.trackers.transmittance, scene.medium,
-                                                            path.ray(), path.rng(), tracking),
-                                     counters);
-  }
-  counters.tracking_steps += tracking.steps;
-  counters.majorant_violations += tracking.majorant_violations;
-  if (parts != nullptr) *parts = path.parts();
-  return path.sample();
+  for (;;) switch (wait) {
+      case Wait::kFlight:
+        wait = path.end_flight(scene, sample_free_flight(scene.trackers.free_flight, scene.medium, path.ray(),
+                                                         path.rng(), tracking));
+        break;
+      case Wait::kTransmittance:
+        wait = path.end_shadow_ray(scene,
+                                   estimate_transmittance(scene.trackers.transmittance, scene.medium,
+                                                          path.ray(), path.rng(), tracking),
+                                   counters);
+        break;
+      case Wait::kScattering:
+        wait = path.end_scattering(scene, scatter_at(scene, path.query()), counters);
+        break;
+      case Wait::kNothing:
+        counters.tracking_steps += tracking.steps;
+        counters.majorant_violations += tracking.majorant_violations;
+        if (parts != nullptr) *parts = path.parts();
+        return path.sample();
+    }
 }
 
 void trace_tile(const SceneView& scene, const TileRect& tile, int sample_begin, int sample_end,

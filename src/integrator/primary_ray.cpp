@@ -34,8 +34,8 @@ PrimaryRay make_primary_ray(const SceneView& scene, int x, int y, std::uint32_t 
   out.origin_world = camera.origin;
   out.direction_world = camera.direction;
   const bool clipped = true;
-  out.track =
-      visible_part(scene, camera.origin, camera.direction, std::numeric_limits<float>::infinity(), clipped);
+  out.track = visible_part(scene, to_index_ray(scene.medium.grid, camera.origin, camera.direction),
+                           camera.origin, camera.direction, std::numeric_limits<float>::infinity(), clipped);
   out.track.u_collision = out.first.u_collision;
   out.track.u_depth = out.first.u_depth;
   out.track.fine = scene.sampler == Sampler::kSobol;

@@ -24,6 +24,9 @@ std::string anonymous_scene(SceneDescription scene) {
   return write_scene(scene);
 }
 
+/// Samples of a pixel that are divided into classes together, where a denoiser asks for them.
+constexpr int kClassifiedTogether = 32;
+
 bool is_transparent(const SceneDescription& scene) {
   return scene.background && scene.background->kind == BackgroundKind::kTransparent;
 }
@@ -33,11 +36,17 @@ bool is_transparent(const SceneDescription& scene) {
 PictureSamples render_picture(const CompiledScene& scene, const std::string& fingerprint,
                               const PictureOptions& options) {
   const ImageDescription& image = scene.description().image;
+  FilmLayers layers = film_layers(options.aovs);
+  const FilmLayers for_denoiser = denoiser_layers(scene.description().render.denoise);
+  layers.normal |= for_denoiser.normal;
+  layers.albedo |= for_denoiser.albedo;
+  layers.classes |= for_denoiser.classes;
   PictureSamples out{options.resume && std::filesystem::exists(options.checkpoint)
                          ? load_checkpoint(options.checkpoint, fingerprint)
-                         : RenderState{Film(image.width, image.height, film_layers(options.aovs)), {}, 0}};
+                         : RenderState{Film(image.width, image.height, layers), {}, 0}};
   RenderLoopOptions loop;
   loop.stop = {image.spp, image.seconds, image.noise};
+  if (layers.classes) loop.first_run = kClassifiedTogether;
   loop.threads = options.threads;
   loop.cancel = options.cancel;
   loop.checkpoint = options.checkpoint;
@@ -53,7 +62,8 @@ PictureSamples render_picture(const CompiledScene& scene, const std::string& fin
 }
 
 Image finish_picture(const RenderState& state, const CompiledScene& scene,
-                     const std::vector<std::string>& aovs, const std::optional<FrameStamp>& frame) {
+                     const std::vector<std::string>& aovs, const std::optional<FrameStamp>& frame,
+                     PictureDenoiser* denoiser) {
   const SceneDescription& description = scene.description();
   Image image = image_from_film(state.film, aovs, is_transparent(description));
   if (std::find(aovs.begin(), aovs.end(), kDenoiseAov) != aovs.end()) {
@@ -61,6 +71,10 @@ Image finish_picture(const RenderState& state, const CompiledScene& scene,
     const double size_mm = visible_sphere(scene.volume(), std::nullopt).radius_mm;
     fill_denoise_frame(state.film, scene.view(), static_cast<float>(size_mm), layers);
     add_denoise_layers(layers, image);
+  }
+  if (denoiser != nullptr) {
+    denoiser->apply(state.film, scene, image);
+    image.metadata["voxlume:denoiser"] = description.render.denoise;
   }
   image.metadata["voxlume:scene"] = anonymous_scene(description);
   image.metadata["voxlume:seed"] = std::to_string(description.render.seed);

@@ -1,33 +1,36 @@
 #pragma once
-#include <filesystem>
 #include <memory>
-#include <string>
 
 #include "denoise/denoiser.h"
+#include "film/film.h"
+#include "scene/compile.h"
 #include "voxlume/image.h"
 
 namespace voxlume {
 
-/// Takes noise out of pictures of one view, one after the other, as a Denoiser does with frames.
+/// The layers that a film must keep for the denoiser `name` (/render/denoise); none for "none".
+/// Throws Error kBadParameter for an unknown name.
+FilmLayers denoiser_layers(const std::string& name);
+
+/// Denoises the pictures of one scene, in the order of its frames.
 class PictureDenoiser {
  public:
-  /// Throws Error kUnsupported when the method's library is not installed.
-  explicit PictureDenoiser(const DenoiserKind& kind);
+  /// `name` is one of denoiser_kinds(). Throws Error kBadParameter for an unknown one, kUnsupported where a
+  /// library that it needs is missing.
+  explicit PictureDenoiser(const std::string& name);
 
-  /// The next picture without noise and without layers, transparent where the given one is. It keeps the
-  /// metadata but for "voxlume:digest", which stands for a frame as it was rendered, and gets
-  /// "voxlume:denoiser". `where` names the picture in messages. Throws Error: those of frame_from_image.
-  Image denoise(const Image& picture, const std::string& where);
+  /// Whether a picture depends on those before.
+  bool remembers() const { return kind_.remembers; }
+
+  /// Replaces the colours and A of `image`, which shows `film`, a rendering of `scene` that keeps
+  /// denoiser_layers().
+  void apply(const Film& film, const CompiledScene& scene, Image& image);
 
  private:
   const DenoiserKind& kind_;
   std::unique_ptr<Denoiser> denoiser_;
+  DenoiseFrame frame_;
   DenoisedFrame denoised_;
 };
-
-/// Writes a picture as EXR or, developed as the scene in its metadata says, as PNG, by the extension of
-/// `path`. Without a scene the default exposure and tone curve are taken. `where` names the picture's source.
-/// Throws Error: kBadFormat for a scene that makes no sense, and those of save_picture.
-void save_with_own_scene(const Image& picture, const std::string& where, const std::filesystem::path& path);
 
 }  // namespace voxlume

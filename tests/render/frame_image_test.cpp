@@ -10,7 +10,7 @@
 
 #include "image_io/image_io.h"
 #include "render/camera_text.h"
-#include "render/picture_denoiser.h"
+#include "render/file_denoiser.h"
 #include "support/temporary_folder.h"
 #include "voxlume/error.h"
 
@@ -251,18 +251,18 @@ TEST(FrameImage, TheSkyOfOtherProgramsStaysAsItIs) {
   EXPECT_EQ(frame.radiance[0].at(1, 0), 0);
 }
 
-TEST(PictureDenoiser, KeepsMetadataButTheDigest) {
+TEST(FileDenoiser, KeepsMetadataButTheDigest) {
   Image image = foreign_image();
   image.metadata["voxlume:frame"] = "3";
   image.metadata["voxlume:digest"] = "x";
-  const Image out = PictureDenoiser(find_denoiser("wrls")).denoise(image, "");
+  const Image out = FileDenoiser(find_denoiser("wrls")).denoise(image, "");
   EXPECT_EQ(out.metadata,
             (std::map<std::string, std::string>{{"voxlume:frame", "3"}, {"voxlume:denoiser", "wrls"}}));
   EXPECT_TRUE(out.layers.empty());
   EXPECT_EQ(out.pixel(1, 1)[3], 1);
 }
 
-TEST(PictureDenoiser, ADamagedSceneIsAnErrorWhereItIsNeeded) {
+TEST(FileDenoiser, ADamagedSceneIsAnErrorWhereItIsNeeded) {
   const test::TemporaryFolder folder;
   Image image = foreign_image();
   image.metadata["voxlume:scene"] = "{\"version\": 1,";
@@ -294,7 +294,7 @@ TEST(FrameImage, SurvivesDamagedFiles) {
     }
     test::write_bytes(folder / "d.exr", damaged);
     try {
-      PictureDenoiser denoiser(find_denoiser("decoupled"));
+      FileDenoiser denoiser(find_denoiser("decoupled"));
       denoiser.denoise(read_image(folder / "d.exr", {.memory_limit_bytes = 64 << 20}), "d.exr");
     } catch (const Error& error) {
       EXPECT_EQ(std::string_view(error.what()).find('\n'), std::string_view::npos);
@@ -320,19 +320,19 @@ Image damaged_image(std::mt19937& random, const Value& value) {
   return image;
 }
 
-TEST(PictureDenoiser, DamagedValuesNeverSpread) {
+TEST(FileDenoiser, DamagedValuesNeverSpread) {
   for (const DenoiserKind& kind : denoiser_kinds()) {
     if (kind.name == "oidn") continue;
     SCOPED_TRACE(kind.name);
     std::mt19937 random(3);
-    PictureDenoiser denoiser(kind);
+    FileDenoiser denoiser(kind);
     for (int i = 0; i < 3; ++i) {  // any bits at all
       denoiser.denoise(
           damaged_image(
               random, [](std::mt19937& r) { return std::bit_cast<float>(static_cast<std::uint32_t>(r())); }),
           "");
     }
-    PictureDenoiser other(kind);
+    FileDenoiser other(kind);
     for (int i = 0; i < 3; ++i) {
       const Image out =
           other.denoise(damaged_image(random, [](std::mt19937& r) { return r() % 2 ? kNan : -1e30f; }), "");
