@@ -173,7 +173,9 @@ constexpr Row kRows[] = {
     {"--clip-blocks-light", nullptr, "/clip/blocks_light"},
     {"--exposure", "EV", "/image/exposure_ev"},
     {"--tone-curve", "NAME", "/image/tone_curve", "PNG: filmic or srgb"},
-    {"--aov", "LIST", "/image/aovs", "Further layers of an EXR: alpha,depth,normal,albedo,samples,variance"},
+    {"--aov", "LIST", "/image/aovs",
+     "Further layers of an EXR: alpha,depth,normal,albedo,samples,variance, and denoise for all that "
+     "denoisers read"},
     {"--light-sampling", "NAME", "/render/light_sampling",
      "mis, light or direction: how scatterings gather light"},
     {"--denoise", "NAME", "/render/denoise",

@@ -18,7 +18,7 @@ inline const WordChoices kDenoiseWords{{"none", "decoupled", "svgf", "asvgf", "a
                                         "rls", "wrls-no-feature", "rls-no-feature", "oidn"},
                                        {}};
 inline const WordChoices kLightSamplingWords{{"mis", "light", "direction"}, {}};
-inline const WordChoices kAovWords{{"alpha", "depth", "normal", "albedo", "samples", "variance"}, {}};
+inline const WordChoices kAovWords{{"alpha", "depth", "normal", "albedo", "samples", "variance", "denoise"}, {}};
 
 inline StructInfo struct_info(Struct<ImageDescription>) {
   return {"Image",
