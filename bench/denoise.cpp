@@ -74,14 +74,19 @@ void render_pixel(DenoiseFrame& frame, int x, int y, std::mt19937& random) {
   frame.alpha.at(x, y) = scattered / kSamples;
   frame.depth_mm.at(x, y) = m.depth_mm;
   frame.variance.at(x, y) = (squares / kSamples - mean * mean) / (kSamples - 1) * y_light * y_light;
-  SampleClass& one = (*frame.classes)[0];
-  one.count.at(x, y) = scattered;
+  // Every other sample has met something of half the albedo: both classes are there nearly everywhere.
+  const int second = count / 2;
+  const float fx[2] = {1, 0.5f}, counts[2] = {static_cast<float>(count - second), static_cast<float>(second)};
+  for (int k = 0; k < 2; ++k) (*frame.classes)[k].count.at(x, y) = counts[k];
   for (int c = 0; c < 3; ++c) {
     frame.radiance[c].at(x, y) = m.albedo[c] * m.light * mean;
     frame.normal[c].at(x, y) = m.normal[c];
     frame.albedo[c].at(x, y) = m.albedo[c];
-    one.fx_diffuse[c].at(x, y) = m.albedo[c];
-    one.fl_diffuse[c].at(x, y) = m.light * sum / scattered;
+    for (int k = 0; k < 2; ++k) {
+      if (counts[k] == 0) continue;
+      (*frame.classes)[k].fx_diffuse[c].at(x, y) = m.albedo[c] * fx[k];
+      (*frame.classes)[k].fl_diffuse[c].at(x, y) = m.light * sum / scattered / fx[k];
+    }
   }
 }
 

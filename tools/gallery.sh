@@ -27,7 +27,12 @@ if [ "$out" = docs/pictures ]; then size=720x480; fi
 picture hero $ct --preset ct-muscle-bone --camera 35,12,1.5
 if [ "$out" = docs/pictures ]; then  # docs/metrics.md
   few=$(mktemp --suffix .png)
-  trap 'rm -f "$few"' EXIT
+  noisy=$(mktemp --suffix .png)
+  trap 'rm -f "$few" "$noisy"' EXIT
   build/release/voxlume render $ct -o "$few" --size 340x340 --spp 4 --seed 5 --preset ct-muscle-bone --camera 25,10,1.4
   build/release/voxlume compare "$few" "$out/ct-muscle-bone.png" --metric flip --error-map "$out/flip.png" --error-map-kind flip
+  # docs/denoising.md: both halves, side by side
+  build/release/voxlume render $ct -o "$noisy" --size 640x640 --spp 4 --camera 25,10,1.4
+  build/release/voxlume render $ct -o "$few" --size 640x640 --spp 4 --camera 25,10,1.4 --denoise decoupled
+  python3 tools/side_by_side.py "$noisy" "$few" 190,330,470,580 "$out/denoise.png" || echo "denoise.png needs python3 with Pillow" >&2
 fi

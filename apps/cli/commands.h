@@ -15,6 +15,7 @@ using Action = std::function<int()>;
 void add_render_command(CLI::App& program, Action& action);
 void add_info_command(CLI::App& program, Action& action);
 void add_convert_command(CLI::App& program, Action& action);
+void add_denoise_command(CLI::App& program, Action& action);
 void add_compare_command(CLI::App& program, Action& action);
 void add_presets_command(CLI::App& program, Action& action);
 void add_schema_command(CLI::App& program, Action& action);

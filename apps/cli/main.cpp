@@ -19,6 +19,7 @@ Examples:
   voxlume render scene.json -o out.png --exposure 1 --save-scene changed.json
   voxlume info head-ct.nrrd
   voxlume convert dicom-folder head.nrrd
+  voxlume denoise frame-####.exr -o clean-####.exr
   voxlume compare a.exr b.exr --json
 
 INPUT is a volume file (NRRD, MetaImage, NIfTI, TIFF, VTK, HDF5, OpenVDB, or raw with --raw), a folder with
@@ -88,6 +89,7 @@ int run(int argc, char** argv) {
   add_render_command(program, action);
   add_info_command(program, action);
   add_convert_command(program, action);
+  add_denoise_command(program, action);
   add_compare_command(program, action);
   add_presets_command(program, action);
   add_schema_command(program, action);
@@ -105,7 +107,7 @@ int run(int argc, char** argv) {
   }
   if (!action)
     return report(kBadUsage,
-                  "no command; expected one of render, info, convert, compare, presets, "
+                  "no command; expected one of render, info, convert, denoise, compare, presets, "
                   "schema (see voxlume --help)");
   return action();
 }

@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 
+#include <charconv>
+
 #include "base/file_extension.h"
 #include "scene/field_info.h"
 #include "voxlume/error.h"
@@ -9,6 +11,23 @@
 namespace voxlume::cli {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+[[noreturn]] void refuse_frames(const std::string& text, const std::string& expected) {
+  throw Error(ErrorCode::kBadParameter, "--frames", "found " + quote_text(text) + ", expected " + expected);
+}
+
+/// Throws unless `text` is a frame's number.
+int frame_number(std::string_view text, const std::string& whole) {
+  int number = 0;
+  const auto [stop, failed] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (failed != std::errc{} || stop != text.data() + text.size() || number < 0)
+    refuse_frames(whole, "A:B, first and last frame, or one number");
+  return number;
+}
+
+}  // namespace
 
 PictureFormat picture_format(const fs::path& path, const std::string& flag) {
   const std::string extension = lower_extension(path);
@@ -41,6 +60,18 @@ void check_not_input(const fs::path& output, const std::vector<std::string>& inp
     throw Error(ErrorCode::kBadParameter, flag,
                 quote_text(output.string()) + " is an input of this command; expected another name");
   }
+}
+
+FrameRange frame_range(const std::string& text, const FrameRange& all) {
+  FrameRange range = all;
+  const std::size_t colon = text.find(':');
+  const std::string first = text.substr(0, colon);
+  const std::string last = colon == std::string::npos ? first : text.substr(colon + 1);
+  if (!first.empty()) range.first = frame_number(first, text);
+  if (!last.empty()) range.last = frame_number(last, text);
+  if (range.first < all.first || range.last > all.last || range.first > range.last)
+    refuse_frames(text, "frames from " + std::to_string(all.first) + " to " + std::to_string(all.last));
+  return range;
 }
 
 }  // namespace voxlume::cli

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "render/frame_files.h"
+
 namespace voxlume::cli {
 
 enum class PictureFormat { kPng, kExr };
@@ -19,5 +21,9 @@ void check_writable(const std::filesystem::path& path, const std::string& flag);
 /// name).
 void check_not_input(const std::filesystem::path& output, const std::vector<std::string>& inputs,
                      const std::string& flag);
+
+/// The frames that --frames means: "A:B" with either side optional, or "A"; empty means all. Throws Error
+/// kBadParameter, naming the flag, unless they are within `all`.
+FrameRange frame_range(const std::string& text, const FrameRange& all);
 
 }  // namespace voxlume::cli

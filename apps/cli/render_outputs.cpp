@@ -1,4 +1,3 @@
-#include <charconv>
 #include <filesystem>
 
 #include "cli/output_file.h"
@@ -46,15 +45,6 @@ void check_distinct(const RenderRequest& request, const std::string& checkpoint)
       refuse(flag, "has the name of the picture or its checkpoint");
   }
   if (same_file(request.stats, request.save_scene)) refuse("--stats", "has the name of --save-scene");
-}
-
-/// Throws unless `text` is a frame's number.
-int frame_number(std::string_view text, const std::string& whole) {
-  int number = 0;
-  const auto [stop, failed] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (failed != std::errc{} || stop != text.data() + text.size() || number < 0)
-    refuse("--frames", "found " + quote_text(whole) + ", expected A:B, first and last frame, or one number");
-  return number;
 }
 
 }  // namespace
@@ -106,16 +96,7 @@ FrameRange requested_frames(const RenderRequest& request, const SceneDescription
                "animation, or a name without #");
   }
   const int count = frame_count(*scene.animation);
-  FrameRange range{0, count - 1};
-  const std::string& text = request.frames;
-  const std::size_t colon = text.find(':');
-  const std::string first = text.substr(0, colon);
-  const std::string last = colon == std::string::npos ? first : text.substr(colon + 1);
-  if (!first.empty()) range.first = frame_number(first, text);
-  if (!last.empty()) range.last = frame_number(last, text);
-  if (range.last >= count || range.first > range.last)
-    refuse("--frames",
-           "found " + quote_text(text) + ", expected frames from 0 to " + std::to_string(count - 1));
+  const FrameRange range = frame_range(request.frames, {0, count - 1});
   if (kind == OutputKind::kPicture && range.count() != 1) {
     refuse("-o",
            quote_text(request.output) + " is one picture and the scene has " + std::to_string(count) +

@@ -43,6 +43,10 @@ int render_still(RenderRun& run) {
     const int frame = requested_frames(request, run.session->description()).first;
     stamp = {frame, frame_time_s(*animation, frame)};
   }
+  // Before the work: it may lack what it needs.
+  std::optional<PictureDenoiser> denoiser;
+  const std::string& method = scene.description().render.denoise;
+  if (method != "none") denoiser.emplace(method);
   PictureOptions options;
   if (is_exr_name(request.output)) options.aovs = scene.description().image.aovs;
   options.threads = request.threads;
@@ -64,8 +68,8 @@ int render_still(RenderRun& run) {
   const PictureSamples samples =
       render_picture(scene, run.session->fingerprint(scene.description()), options);
   run.progress.clear();
-  save_picture(finish_picture(samples.state, scene, options.aovs, stamp), scene.description(),
-               request.output);
+  save_picture(finish_picture(samples.state, scene, options.aovs, stamp, denoiser ? &*denoiser : nullptr),
+               scene.description(), request.output);
   report_statistics(run, samples.state, load_s);
   if (samples.status == RenderStatus::kCancelled) {
     fmt::print(stderr, "interrupted; the same command with --resume goes on\n");

@@ -26,11 +26,24 @@ struct ImageLayer {
 ///   albedo    R G B     1           at the first scattering, mean over those samples
 ///   samples   Y         1           samples of the pixel
 ///   variance  Y         radiance^2  variance of the pixel's mean luminance
+///
+/// The name "denoise" stands for everything that denoisers read (docs/denoising.md): normal, albedo, samples,
+///   matter           R G B A  radiance    of what scattered, without background, premultiplied by A, the
+///   share
+///                                         of the samples that scattered
+///   matter_depth     Z        mm          from the eye to the matter that stands for the pixel (xu2024 5.2)
+///   matter_variance  Y        radiance^2  variance of the mean luminance of matter
+///   background       R G B    radiance    behind the matter, not multiplied by 1 - A
+///   class0.count, class1.count  Y         samples in each of two classes that scattered alike (xu2024 5.1)
+///   classK.fx_diffuse, classK.fx_specular, classK.fl_diffuse, classK.fl_specular, classK.later  R G B
+///                                         of the class: SampleClass in denoise/frame.h
 /// The first scattering of depth, normal and albedo is that of the camera path; zero where nothing scattered.
 ///
 /// Metadata that voxlume writes (EXR attributes, PNG text): "voxlume:scene" (the scene as JSON),
-/// "voxlume:seed", "voxlume:version", "voxlume:camera" (docs/animation.md); of frames of an animation also
-/// "voxlume:frame", "voxlume:time_s" and "voxlume:digest" (differs whenever scene, settings or volume do).
+/// "voxlume:seed", "voxlume:version", "voxlume:camera" (docs/animation.md); with the layers of "denoise"
+/// "voxlume:size_mm" (radius of the volume's bounding sphere); of frames of an animation also
+/// "voxlume:frame", "voxlume:time_s" and "voxlume:digest" (differs whenever scene, settings or volume do); of
+/// pictures that were denoised "voxlume:denoiser" (the method).
 struct Image {
   int width = 0, height = 0;
   std::vector<float> rgba;  ///< width * height * 4, row by row from the top

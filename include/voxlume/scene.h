@@ -185,7 +185,7 @@ struct RenderDescription {
   /// Shadow rays that can add less than this many times the path's first one are cast by Russian roulette.
   double shadow_roulette = 0;
   std::string simd = "auto";  ///< auto scalar
-  std::string denoise = "none";
+  std::string denoise = "none";  ///< none, or a denoiser (docs/denoising.md)
   /// Which techniques gather light at a scattering: "mis" (both), "light" (next-event estimation alone) or
   /// "direction" (direction sampling alone, which never finds point and directional lights).
   std::string light_sampling = "mis";

@@ -190,23 +190,29 @@ void filter_light_again_row(const DenoiseFrame& frame, const Reprojection* moved
                             const Plane& luminance_before, int y, DecoupledStages& stages,
                             DecoupledHistory& now) {
   const F zero = hn::Zero(kD);
+  const LightTaps taps = light_taps(frame, 2);
   for_row(frame.width, [&](int x, std::size_t lanes) {
     Matter matter{zero3(), zero};
+    const F counts[2] = {load((*frame.classes)[0].count, x, y), load((*frame.classes)[1].count, x, y)};
+    const Light dark{zero3(), zero3(), zero3()};
+    Light light[2]{dark, dark};
+    if (!none(hn::Add(counts[0], counts[1]))) {
+      filter_light(
+          frame, stages, taps, x, y, !none(counts[1]),
+          [&](int m) -> LightPlanes {
+            return {stages.fl_diffuse[m], stages.fl_specular[m], stages.later[m]};
+          },
+          light);
+    }
     for (int k = 0; k < 2; ++k) {
-      const F count = load((*frame.classes)[k].count, x, y);
-      ClassAt result{zero, zero3(), zero3(), zero3(), zero3(), zero3()};
-      if (!none(count)) {
-        const Light light = filter_light(frame, stages, k, x, y, 2, [&](int m) -> LightPlanes {
-          return {stages.fl_diffuse[m], stages.fl_specular[m], stages.later[m]};
-        });
-        const ClassAt filtered{count,
-                               load(stages.fx_diffuse[k], x, y),
-                               load(stages.fx_specular[k], x, y),
-                               light.fl_diffuse,
-                               light.fl_specular,
-                               light.later};
-        result = choose(hn::Gt(count, zero), filtered, result);
-      }
+      const ClassAt filtered{counts[k],
+                             load(stages.fx_diffuse[k], x, y),
+                             load(stages.fx_specular[k], x, y),
+                             light[k].fl_diffuse,
+                             light[k].fl_specular,
+                             light[k].later};
+      const ClassAt nothing{zero, zero3(), zero3(), zero3(), zero3(), zero3()};
+      const ClassAt result = choose(hn::Gt(counts[k], zero), filtered, nothing);
       store(result, now.classes[k], x, y, lanes);
       add_class(result, matter);
     }

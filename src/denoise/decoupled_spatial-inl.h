@@ -88,63 +88,102 @@ struct Light {
   F3 fl_diffuse, fl_specular, later;
 };
 
-/// One step of the light's spatial filter (xu2024 5.3.2): 5 x 5 taps, guided by the filtered fx and by what
-/// tells matter apart (depth and, beyond the paper, the normal), over all classes. `light_of` gives a class
-/// its light.
+/// 5 x 5 taps, `step` pixels apart.
+using LightTaps = std::array<Tap, 25>;
+HWY_INLINE LightTaps light_taps(const DenoiseFrame& frame, int step) {
+  return make_taps<2>(frame.alpha.stride(), step, {kSpline[0], kSpline[1], kSpline[2]});
+}
+
+/// What a class adds up from its neighbours, with the sums of the weights.
+struct LightSums {
+  F weights, diffuse_weights, specular_weights;
+  Light light;
+};
+
+/// A neighbour's class, which counts for as much as its weight says; fl for as much as fx as well, so that
+/// the sums are of direct light over those of fx.
+struct LightThere {
+  F3 fx_diffuse;
+  F fx_luminance, fx_specular, count;
+  Light light;
+};
+
+HWY_INLINE void add_light(const LightThere& there, F3 own_fx, F alike, LightSums& sums) {
+  const F colour =
+      hn::MulAdd(rough_length(sub(own_fx, there.fx_diffuse)), hn::Set(kD, -1.0f / kSigmaFx), alike);
+  const F weight = hn::Mul(there.count, exp_approx(colour));
+  const F diffuse_weight = hn::Mul(weight, there.fx_luminance);
+  const F specular_weight = hn::Mul(weight, there.fx_specular);
+  sums.weights = hn::Add(sums.weights, weight);
+  sums.diffuse_weights = hn::Add(sums.diffuse_weights, diffuse_weight);
+  sums.specular_weights = hn::Add(sums.specular_weights, specular_weight);
+  sums.light.fl_diffuse = add_scaled(sums.light.fl_diffuse, there.light.fl_diffuse, diffuse_weight);
+  sums.light.fl_specular = add_scaled(sums.light.fl_specular, there.light.fl_specular, specular_weight);
+  sums.light.later = add_scaled(sums.light.later, there.light.later, weight);
+}
+
+HWY_INLINE Light mean_light(const LightSums& sums) {
+  const F one = hn::Set(kD, 1.0f);
+  return {scale(sums.light.fl_diffuse, hn::Div(one, sums.diffuse_weights)),
+          scale(sums.light.fl_specular, hn::Div(one, sums.specular_weights)),
+          scale(sums.light.later, hn::Div(one, sums.weights))};
+}
+
+/// One step of the light's spatial filter (xu2024 5.3.2), guided by the filtered fx and by what tells matter
+/// apart (depth and, beyond the paper, the normal), over all classes. `light_of` gives a class its light;
+/// `both`: the pixels have samples of the second class, else only the first is filtered.
 template <class LightOf>
-HWY_INLINE Light filter_light(const DenoiseFrame& frame, const DecoupledStages& stages, int k, int x, int y,
-                              int step, const LightOf& light_of) {
+HWY_INLINE void filter_light(const DenoiseFrame& frame, const DecoupledStages& stages, const LightTaps& taps,
+                             int x, int y, bool both, const LightOf& light_of, Light (&out)[2]) {
   const GuideRows guides(stages.guides, y);
   const GuideCentre centre = guide_centre(guides, x);
-  const F3 own = load(stages.fx_diffuse[k], x, y);
-  F weights = hn::Set(kD, 1e-30f), diffuse_weights = weights, specular_weights = weights;
-  Light sum{zero3(), zero3(), zero3()};
-  for (int dy = -2; dy <= 2; ++dy) {
-    for (int dx = -2; dx <= 2; ++dx) {
-      const int there_x = x + dx * step, there_y = y + dy * step;
-      const float distance = static_cast<float>(step) * std::sqrt(static_cast<float>(dx * dx + dy * dy));
-      const Tap tap{static_cast<std::ptrdiff_t>(dy * step) * frame.alpha.stride() + dx * step,
-                    std::log(kSpline[std::abs(dx)] * kSpline[std::abs(dy)]), distance > 0 ? 1 / distance : 0};
-      const F alike = log_weight(centre, guides, x, tap);
-      for (int m = 0; m < 2; ++m) {
-        const F count = load((*frame.classes)[m].count, there_x, there_y);
-        if (none(count)) continue;
-        const F3 fx = load(stages.fx_diffuse[m], there_x, there_y);
-        const F weight = hn::Mul(
-            count, exp_approx(hn::MulAdd(rough_length(sub(own, fx)), hn::Set(kD, -1.0f / kSigmaFx), alike)));
-        const F diffuse_weight = hn::Mul(weight, luminance(fx));
-        const F specular_weight = hn::Mul(weight, load(stages.fx_specular[m][1], there_x, there_y));
-        weights = hn::Add(weights, weight);
-        diffuse_weights = hn::Add(diffuse_weights, diffuse_weight);
-        specular_weights = hn::Add(specular_weights, specular_weight);
-        const LightPlanes light = light_of(m);
-        sum.fl_diffuse = add_scaled(sum.fl_diffuse, load(light.fl_diffuse, there_x, there_y), diffuse_weight);
-        sum.fl_specular =
-            add_scaled(sum.fl_specular, load(light.fl_specular, there_x, there_y), specular_weight);
-        sum.later = add_scaled(sum.later, load(light.later, there_x, there_y), weight);
-      }
+  const F3 own[2] = {load(stages.fx_diffuse[0], x, y), load(stages.fx_diffuse[1], x, y)};
+  const F little = hn::Set(kD, 1e-30f);
+  const Light dark{zero3(), zero3(), zero3()};
+  LightSums sums[2]{{little, little, little, dark}, {little, little, little, dark}};
+  for (const Tap& tap : taps) {
+    const auto at = [&](const Plane& plane) { return hn::LoadU(kD, plane.row(y) + x + tap.offset); };
+    const auto at3 = [&](const Planes3& planes) { return F3{at(planes[0]), at(planes[1]), at(planes[2])}; };
+    const F counts[2] = {at((*frame.classes)[0].count), at((*frame.classes)[1].count)};
+    if (none(hn::Add(counts[0], counts[1]))) continue;
+    const F alike = log_weight(centre, guides, x, tap);
+    for (int m = 0; m < 2; ++m) {
+      if (none(counts[m])) continue;
+      const LightPlanes planes = light_of(m);
+      const F3 fx = at3(stages.fx_diffuse[m]);
+      const LightThere there{fx,
+                             luminance(fx),
+                             at(stages.fx_specular[m][1]),
+                             counts[m],
+                             {at3(planes.fl_diffuse), at3(planes.fl_specular), at3(planes.later)}};
+      add_light(there, own[0], alike, sums[0]);
+      if (both) add_light(there, own[1], alike, sums[1]);
     }
   }
-  const F one = hn::Set(kD, 1.0f);
-  return {scale(sum.fl_diffuse, hn::Div(one, diffuse_weights)),
-          scale(sum.fl_specular, hn::Div(one, specular_weights)), scale(sum.later, hn::Div(one, weights))};
+  out[0] = mean_light(sums[0]);
+  out[1] = both ? mean_light(sums[1]) : dark;
 }
 
 /// The first step: neighbouring taps.
 void filter_light_row(const DenoiseFrame& frame, int y, DecoupledStages& stages) {
   const std::array<SampleClass, 2>& classes = *frame.classes;
+  const LightTaps taps = light_taps(frame, 1);
   for_row(frame.width, [&](int x, std::size_t lanes) {
+    const F counts[2] = {load(classes[0].count, x, y), load(classes[1].count, x, y)};
+    const Light dark{zero3(), zero3(), zero3()};
+    Light light[2]{dark, dark};
+    if (!none(hn::Add(counts[0], counts[1]))) {
+      filter_light(
+          frame, stages, taps, x, y, !none(counts[1]),
+          [&](int m) -> LightPlanes {
+            return {classes[m].fl_diffuse, classes[m].fl_specular, classes[m].later};
+          },
+          light);
+    }
     for (int k = 0; k < 2; ++k) {
-      const F count = load(classes[k].count, x, y);
-      Light light{zero3(), zero3(), zero3()};
-      if (!none(count)) {
-        light = filter_light(frame, stages, k, x, y, 1, [&](int m) -> LightPlanes {
-          return {classes[m].fl_diffuse, classes[m].fl_specular, classes[m].later};
-        });
-      }
-      store(light.fl_diffuse, stages.fl_diffuse[k], x, y, lanes);
-      store(light.fl_specular, stages.fl_specular[k], x, y, lanes);
-      store(light.later, stages.later[k], x, y, lanes);
+      store(light[k].fl_diffuse, stages.fl_diffuse[k], x, y, lanes);
+      store(light[k].fl_specular, stages.fl_specular[k], x, y, lanes);
+      store(light[k].later, stages.later[k], x, y, lanes);
     }
   });
 }

@@ -13,28 +13,32 @@
 namespace voxlume {
 namespace {
 
-template <class Method>
-std::unique_ptr<Denoiser> make() {
-  return std::make_unique<Method>();
-}
+std::unique_ptr<Denoiser> make_decoupled() { return std::make_unique<DecoupledDenoiser>(); }
+
+constexpr DenoiserNeeds kGuides{.normal = true, .albedo = true};
 
 }  // namespace
 
 const std::vector<DenoiserKind>& denoiser_kinds() {
   static const std::vector<DenoiserKind> kinds{
       {"decoupled",
-       "scattering and arriving light filtered apart, with history (xu2024)",
+       "scattering and arriving light filtered apart (xu2024)",
        {.normal = true, .albedo = true, .classes = true},
-       make<DecoupledDenoiser>},
-      {"svgf", "SVGF (schied2017)", {.normal = true, .albedo = true}, make_svgf},
-      {"asvgf", "A-SVGF (schied2018)", {.normal = true, .albedo = true, .gradients = true}, make_asvgf},
-      {"atrous", "edge-avoiding a-trous wavelets, one frame", {.normal = true, .albedo = true}, make_atrous},
-      {"bilateral", "joint bilateral filter, one frame", {.normal = true, .albedo = true}, make_bilateral},
-      {"wrls", "weighted recursive least squares over time (iglesias2020)", {}, make_wrls<{}>},
-      {"rls", "wrls without weights", {}, make_wrls<{.weighted = false}>},
-      {"wrls-no-feature", "wrls as a mean over time", {}, make_wrls<{.feature = false}>},
-      {"rls-no-feature", "rls as a mean over time", {}, make_wrls<{.weighted = false, .feature = false}>},
-      {"oidn", "Open Image Denoise, where installed", {.normal = true, .albedo = true}, make_oidn},
+       true,
+       make_decoupled},
+      {"svgf", "SVGF (schied2017)", kGuides, true, make_svgf},
+      {"asvgf", "A-SVGF (schied2018)", {.normal = true, .albedo = true, .gradients = true}, true, make_asvgf},
+      {"atrous", "edge-avoiding a-trous wavelets", kGuides, false, make_atrous},
+      {"bilateral", "joint bilateral filter", kGuides, false, make_bilateral},
+      {"wrls", "weighted recursive least squares (iglesias2020)", {}, true, make_wrls<{}>},
+      {"rls", "wrls without weights", {}, true, make_wrls<{.weighted = false}>},
+      {"wrls-no-feature", "wrls as a mean over time", {}, true, make_wrls<{.feature = false}>},
+      {"rls-no-feature",
+       "rls as a mean over time",
+       {},
+       true,
+       make_wrls<{.weighted = false, .feature = false}>},
+      {"oidn", "Open Image Denoise, where installed", kGuides, false, make_oidn},
   };
   return kinds;
 }

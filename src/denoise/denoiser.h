@@ -33,6 +33,7 @@ struct DenoiserKind {
   std::string_view name;     ///< as in `--denoise`
   std::string_view summary;  ///< one line
   DenoiserNeeds needs;
+  bool remembers;  ///< whether a result depends on the frames before
   std::unique_ptr<Denoiser> (*make)();
 };
 

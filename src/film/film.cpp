@@ -56,6 +56,11 @@ void Film::add(int x, int y, const PixelSample& sample) noexcept {
   const double y_luminance = luminance(radiance);
   sums.radiance += radiance;
   sums.luminance_squared += y_luminance * y_luminance;
+  if (layers_.classes && counts_[i] == 0 && sample.alpha > 0 && !nonfinite &&
+      std::isfinite(sample.depth_mm)) {
+    classes_[i].first_luminance = luminance(sample.radiance);
+    classes_[i].first_depth_mm = sample.depth_mm;
+  }
   ++counts_[i];
 
   double alpha = sample.alpha;

@@ -45,6 +45,8 @@ struct PixelClasses {
   ClassSums classes[2];
   float dense_depth_mm = 0;   ///< least depth of a dense sample; 0 without one
   float median_depth_mm = 0;  ///< of the first samples that scattered and were added together
+  /// Of sample 0; 0 unless it scattered and is finite.
+  float first_luminance = 0, first_depth_mm = 0;
 };
 
 /// Which sums a film keeps beyond radiance, alpha and their error.

@@ -28,7 +28,7 @@ float class_luminance(const ClassSums& sums) noexcept {
   return luminance(sums.fx_diffuse) / static_cast<float>(sums.count);
 }
 
-static_assert(sizeof(PixelClasses) == 168, "checkpoints hold it as bytes: no padding");
+static_assert(sizeof(PixelClasses) == 176, "checkpoints hold it as bytes: no padding");
 
 /// How many of the candidates, in ascending order of luminance, the first class takes.
 std::size_t first_class_size(std::span<const Candidate> sorted) noexcept {

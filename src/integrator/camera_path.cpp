@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "integrator/background.h"
-#include "integrator/scatter_point.h"
 #include "integrator/unshadowed.h"
 
 namespace voxlume {
@@ -51,7 +50,7 @@ CameraPath::Wait CameraPath::begin(const SceneView& scene, const PrimaryRay& pri
   out_ = {};
   if (scene.keeps_parts) first_light_ = {};
   ++counters.paths;
-  return primary.enters ? Wait::kFlight : end_flight(scene, {}, counters);
+  return primary.enters ? Wait::kFlight : end_flight(scene, {});
 }
 
 /// At the first scattering a stratified number, if there is one; later the stream's.
@@ -63,8 +62,8 @@ UnitPair CameraPath::draw(UnitPair first) noexcept {
 }
 
 /// From the last scattering in the direction drawn there.
-TrackRay CameraPath::scattered_ray(const SceneView& scene) const noexcept {
-  TrackRay ray = visible_part(scene, origin_world_, direction_world_, kInfinity, !scene.clip_blocks_light);
+TrackRay CameraPath::turned_ray() const noexcept {
+  TrackRay ray = turn_ray_;
   if (depth_ == 1) {
     ray.u_collision = first_.u_next_collision;
     ray.u_depth = first_.u_next_depth;
@@ -72,9 +71,9 @@ TrackRay CameraPath::scattered_ray(const SceneView& scene) const noexcept {
   return ray;
 }
 
-CameraPath::Wait CameraPath::fly(const SceneView& scene, TraceCounters& counters) noexcept {
-  ray_ = scattered_ray(scene);
-  return enters() ? Wait::kFlight : end_flight(scene, {}, counters);
+CameraPath::Wait CameraPath::fly(const SceneView& scene) noexcept {
+  ray_ = turned_ray();
+  return enters() ? Wait::kFlight : end_flight(scene, {});
 }
 
 CameraPath::Wait CameraPath::end() noexcept {
@@ -82,8 +81,7 @@ CameraPath::Wait CameraPath::end() noexcept {
   return Wait::kNothing;
 }
 
-CameraPath::Wait CameraPath::end_flight(const SceneView& scene, const Collision& collision,
-                                        TraceCounters& counters) noexcept {
+CameraPath::Wait CameraPath::end_flight(const SceneView& scene, const Collision& collision) noexcept {
   if (depth_ > 0) {
     const Vec3f met = met_emitters(scene, collision);
     radiance_ += throughput_ * met;
@@ -93,7 +91,35 @@ CameraPath::Wait CameraPath::end_flight(const SceneView& scene, const Collision&
     if (depth_ == 0) radiance_ = background(scene);
     return end();
   }
-  const MatterPoint matter = matter_at(scene, collision.p_index, collision.value);
+  if (scattered_out(scene) && !scene.matter_emits) return end();
+  if (depth_ == 0) out_.depth_mm = collision.t_mm;
+  ask(scene, collision);
+  return Wait::kScattering;
+}
+
+/// Draws what the scattering at a collision takes.
+void CameraPath::ask(const SceneView& scene, const Collision& collision) noexcept {
+  const bool goes_on = !scattered_out(scene);
+  query_ = {collision.p_index, collision.value, -direction_world_,
+            goes_on && scene.light_sampling != LightSampling::kDirection && scene.lights.pick.count > 0,
+            goes_on && (!scatters_last(scene) || scene.last_flight_collects)};
+  if (scene.scattering.shading == Shading::kExposureRender) query_.u_surface = rng_.next();
+  if (query_.samples_light) {
+    light_samples_left_ = light_samples(scene);
+    // Of several, the first stratum; the numbers of the others follow.
+    query_.u_pick = draw(first_.u_light);
+    query_.u_light = query_.u_pick / static_cast<float>(light_samples_left_);
+    query_.light = draw(first_.light);
+  }
+  if (query_.turns) {
+    query_.u_lobe = draw(first_.u_lobe);
+    query_.direction = draw(first_.direction);
+  }
+}
+
+CameraPath::Wait CameraPath::end_scattering(const SceneView& scene, const Scattering& scattering,
+                                            TraceCounters& counters) noexcept {
+  const MatterPoint& matter = scattering.matter;
   // Matter that is cut away absorbs light that reaches it (only when it blocks light at all).
   if (scene.clip_blocks_light && !scene.clip_world.contains(matter.p_world) && depth_ > 0) return end();
 
@@ -102,34 +128,39 @@ CameraPath::Wait CameraPath::end_flight(const SceneView& scene, const Collision&
   radiance_ += throughput_ * matter.emission;
   if (depth_ == 0) {
     out_.alpha = 1;
-    out_.depth_mm = collision.t_mm;
     out_.albedo = point_.albedo;
-    out_.normal = point_.normal * point_.p_brdf;
+    out_.normal = point_.normal * scattering.surface_share;
     first_light_.dense =
-        scene.keeps_parts && classify_mu_t(scene.medium.transfer, collision.value) > scene.dense_mu_t;
+        scene.keeps_parts && classify_mu_t(scene.medium.transfer, query_.value) > scene.dense_mu_t;
   }
   if (scattered_out(scene)) return end();
 
-  // Exposure Render decides at every event whether it is a surface or a medium (xu2024 eq. 4, without the
-  // division by the probability of the choice, which would double the scattered energy).
-  if (scene.scattering.shading == Shading::kExposureRender)
-    point_.p_brdf = rng_.next() < point_.p_brdf ? 1.0f : 0.0f;
-  choice_ = scatter_choice(point_, -direction_world_);
+  choice_ = scattering.choice;
+  turn_ = scattering.turn;
+  turn_ray_ = scattering.turn_ray;
+  meets_rect_ = scattering.turn_meets_rect;
   if (scene.keeps_parts && depth_ == 0)
     first_light_.fx = unshadowed_shading(scene.lights, point_, -direction_world_, p_world_);
   ++counters.scatterings;
   radiance_ += throughput_ * point_.albedo * scene.ambient;
-  if (scene.light_sampling == LightSampling::kDirection || scene.lights.pick.count == 0)
-    return scatter(scene, counters);
-  return sample_direct_light(scene, counters);
+  if (!query_.samples_light) return turn(scene, counters);
+  --light_samples_left_;
+  if (cast(scene, scattering.light, scattering.toward_light, scattering.light_ray, counters)) {
+    if (depth_ == 0) ray_.u_depth = first_.u_shadow_depth;
+    if (enters()) return Wait::kTransmittance;
+    radiance_ += unshadowed_;
+    if (scene.keeps_parts && depth_ == 0) add_first(first_light_.arriving);
+  }
+  return next_light_sample(scene, counters);
 }
 
 /// Light met along a sampled direction before its collision: lights have no body, they only add.
 Vec3f CameraPath::met_emitters(const SceneView& scene, const Collision& collision) const noexcept {
   Vec3f met(0);
   if (scene.light_sampling == LightSampling::kLight) return met;
-  visit_rect_hits(scene.lights, origin_world_, direction_world_, collision.t_mm,
-                  [&](const LightHit& hit) { met += weighted(scene, hit); });
+  if (meets_rect_)
+    visit_rect_hits(scene.lights, origin_world_, direction_world_, collision.t_mm,
+                    [&](const LightHit& hit) { met += weighted(scene, hit); });
   if (!collision.real) met += weighted(scene, environment_hit(scene.lights, direction_world_));
   return met;
 }
@@ -171,44 +202,43 @@ Vec3f CameraPath::background(const SceneView& scene) noexcept {
   return background_radiance(scene, px_, py_, direction_world_, u0, u1);
 }
 
-/// Next-event estimation: light from sampled emitters, scattered back along the path.
-CameraPath::Wait CameraPath::sample_direct_light(const SceneView& scene, TraceCounters& counters) noexcept {
-  u_pick_ = draw(first_.u_light);
-  light_samples_left_ = light_samples(scene);
-  return next_light_sample(scene, counters);
+/// Next-event estimation: light from a sampled emitter, scattered back along the path. False: there is none,
+/// else what remains is its shadow.
+bool CameraPath::cast(const SceneView& scene, const LightSample& light, const ScatterValue& scattered,
+                      const TrackRay& ray, TraceCounters& counters) noexcept {
+  if (!(light.pdf > 0) || !(max_component(scattered.value * light.radiance) > 0)) return false;
+  const float pdf = light.pdf * static_cast<float>(light_samples(scene));
+  const float weight = light.delta || scene.light_sampling == LightSampling::kLight
+                           ? 1.0f
+                           : power_heuristic(pdf, scattered.pdf * flight_share(scene));
+  unshadowed_ = throughput_ * scattered.value * light.radiance * (weight / pdf);
+  const float boost = shadow_ray_boost(scene);
+  if (!(boost > 0)) return false;
+  unshadowed_ *= boost;
+  if (scene.keeps_parts && depth_ == 0) {
+    first_light_.now = eval_scatter_parts(point_, choice_, -direction_world_, light.wi);
+    first_light_.arriving = light.radiance * (weight / pdf * boost);
+  }
+  ++counters.shadow_rays;
+  ray_ = ray;
+  return true;
 }
 
+/// Light samples beyond the first.
 CameraPath::Wait CameraPath::next_light_sample(const SceneView& scene, TraceCounters& counters) noexcept {
   const auto count = static_cast<float>(light_samples(scene));
   while (light_samples_left_ > 0) {
-    const auto stratum = static_cast<float>(--light_samples_left_);
-    const bool last = light_samples_left_ == 0;  // the one that the stratified numbers are for
-    const auto [u0, u1] = draw(last ? first_.light : UnitPair{-1, -1});
-    const LightSample light = sample_light(scene.lights, p_world_, (stratum + u_pick_) / count, u0, u1);
-    if (!(light.pdf > 0)) continue;
-    const ScatterParts scattered = eval_scatter_parts(point_, choice_, -direction_world_, light.wi);
-    const Vec3f value = scattered.diffuse + scattered.specular + scattered.phase;
-    const bool first = scene.keeps_parts && depth_ == 0;
-    if (first) first_light_.now = scattered;
-    if (!(max_component(value * light.radiance) > 0)) continue;
-
-    const float pdf = light.pdf * count;
-    const float weight = light.delta || scene.light_sampling == LightSampling::kLight
-                             ? 1.0f
-                             : power_heuristic(pdf, scattered.pdf * flight_share(scene));
-    unshadowed_ = throughput_ * value * light.radiance * (weight / pdf);
-    const float boost = shadow_ray_boost(scene);
-    if (!(boost > 0)) continue;
-    unshadowed_ *= boost;
-    if (first) first_light_.arriving = light.radiance * (weight / pdf * boost);
-    ++counters.shadow_rays;
-    ray_ = visible_part(scene, p_world_, light.wi, light.distance_mm, !scene.clip_blocks_light);
-    if (last && depth_ == 0) ray_.u_depth = first_.u_shadow_depth;
+    const auto stratum = static_cast<float>(light_samples_left_--);
+    const float u0 = rng_.next(), u1 = rng_.next();
+    const LightSample light = sample_light(scene.lights, p_world_, (stratum + query_.u_pick) / count, u0, u1);
+    const TrackRay ray = ray_from(scene, query_.p_index, p_world_, light.wi, light.distance_mm);
+    if (!cast(scene, light, eval_scatter(point_, choice_, -direction_world_, light.wi), ray, counters))
+      continue;
     if (enters()) return Wait::kTransmittance;
     radiance_ += unshadowed_;
-    if (first) add_first(first_light_.arriving);
+    if (scene.keeps_parts && depth_ == 0) add_first(first_light_.arriving);
   }
-  return scatter(scene, counters);
+  return turn(scene, counters);
 }
 
 CameraPath::Wait CameraPath::end_shadow_ray(const SceneView& scene, float transmittance,
@@ -221,10 +251,9 @@ CameraPath::Wait CameraPath::end_shadow_ray(const SceneView& scene, float transm
 
 /// The probability of following the direction that is drawn at the present scattering.
 float CameraPath::flight_share(const SceneView& scene) const noexcept {
-  const bool last = scene.max_scatter > 0 && depth_ + 1 == scene.max_scatter;
   const bool glossy = choice_.specular > 0 && point_.alpha < kGlossyAlpha;
   const bool needed = glossy || scene.lights.has_environment || scene.light_sampling != LightSampling::kMis;
-  return last && !needed ? kLastFlightShare : 1.0f;
+  return scatters_last(scene) && !needed ? kLastFlightShare : 1.0f;
 }
 
 /// Russian roulette for shadow rays, in proportion to what they can add: what a ray that is cast counts for,
@@ -240,42 +269,35 @@ float CameraPath::shadow_ray_boost(const SceneView& scene) noexcept {
 }
 
 /// Turns the path at a scattering, unless it is absorbed or nothing can come of it.
-CameraPath::Wait CameraPath::scatter(const SceneView& scene, TraceCounters& counters) noexcept {
-  if (scene.max_scatter > 0 && depth_ + 1 == scene.max_scatter && !scene.last_flight_collects) return end();
+CameraPath::Wait CameraPath::turn(const SceneView& scene, TraceCounters& counters) noexcept {
+  if (!query_.turns || !(turn_.pdf > 0)) return end();
   // After the last scattering a direction only adds to what the light samples found; with less than certainty
   // it is one technique of the heuristic that takes `share` samples.
   const float share = flight_share(scene);
   if (share < 1 && rng_.next() >= share) return end();
-  const float u_lobe = draw(first_.u_lobe);
-  const auto [u0, u1] = draw(first_.direction);
-  const ScatterSample sample = sample_scatter(point_, choice_, -direction_world_, u_lobe, u0, u1);
-  if (!(sample.pdf > 0)) return end();
   if (scene.keeps_parts && depth_ == 0) {
-    first_light_.now = eval_scatter_parts(point_, choice_, -direction_world_, sample.wi);
-    first_light_.weight = 1 / (sample.pdf * share);
+    first_light_.now = eval_scatter_parts(point_, choice_, -direction_world_, turn_.wi);
+    first_light_.weight = 1 / (turn_.pdf * share);
   }
-  throughput_ *= sample.value / (sample.pdf * share);
+  throughput_ *= turn_.value / (turn_.pdf * share);
   origin_world_ = p_world_;
-  direction_world_ = sample.wi;
-  direction_pdf_ = sample.pdf;
+  direction_world_ = turn_.wi;
+  direction_pdf_ = turn_.pdf;
   hit_samples_ = static_cast<float>(light_samples(scene)) / share;
   if (!(max_component(throughput_) > 0) || !survives()) return end();
   ++depth_;
-  return scattered_out(scene) && !scene.matter_emits ? reach_lights(scene, counters) : fly(scene, counters);
+  return scattered_out(scene) && !scene.matter_emits ? reach_lights(scene, counters) : fly(scene);
 }
 
 /// After the last scattering it does not matter where a flight ends, but what reaches it: an estimate of the
 /// transmittance tells with less variance.
 CameraPath::Wait CameraPath::reach_lights(const SceneView& scene, TraceCounters& counters) noexcept {
-  bool meets_rect = false;  // at its own distance, which takes a flight
-  visit_rect_hits(scene.lights, origin_world_, direction_world_, kInfinity,
-                  [&](const LightHit&) { meets_rect = true; });
-  if (meets_rect) return fly(scene, counters);
+  if (meets_rect_) return fly(scene);  // light at its own distance takes a flight
   const Vec3f met = weighted(scene, environment_hit(scene.lights, direction_world_));
   unshadowed_ = throughput_ * met;
   first_light_.arriving = met * first_light_.weight;
   if (!(max_component(unshadowed_) > 0)) return end();
-  ray_ = scattered_ray(scene);
+  ray_ = turned_ray();
   return enters() ? Wait::kTransmittance : end_shadow_ray(scene, 1, counters);
 }
 

@@ -2,10 +2,9 @@
 #include "film/film.h"
 #include "film/trace_counters.h"
 #include "integrator/primary_ray.h"
+#include "integrator/scattering.h"
 #include "integrator/scene_view.h"
 #include "integrator/unshadowed.h"
-#include "light/sample_light.h"
-#include "material/scatter.h"
 #include "tracking/tracking.h"
 
 namespace voxlume {
@@ -15,20 +14,25 @@ namespace voxlume {
 /// sampling by the power heuristic; after the last allowed scattering the sampled direction still collects
 /// light that reaches it unscattered.
 ///
-/// A path stops wherever a ray is to be tracked and goes on with what the tracker found, so that one thread
-/// can follow many paths at once.
+/// A path stops wherever a ray is to be tracked or a collision to be shaded and goes on with what was found,
+/// so that one thread can follow many paths at once.
 class CameraPath {
  public:
   /// What a path waits for; kNothing when it has ended.
-  enum class Wait { kNothing, kFlight, kTransmittance };
+  enum class Wait { kNothing, kFlight, kTransmittance, kScattering };
 
   /// Begins a sample.
   Wait begin(const SceneView& scene, const PrimaryRay& primary, TraceCounters& counters) noexcept;
   /// Goes on from kFlight.
-  Wait end_flight(const SceneView& scene, const Collision& collision, TraceCounters& counters) noexcept;
+  Wait end_flight(const SceneView& scene, const Collision& collision) noexcept;
   /// Goes on from kTransmittance, with an unbiased estimate of it.
   Wait end_shadow_ray(const SceneView& scene, float transmittance, TraceCounters& counters) noexcept;
 
+  /// Goes on from kScattering, with scatter_at(query()).
+  Wait end_scattering(const SceneView& scene, const Scattering& scattering, TraceCounters& counters) noexcept;
+
+  /// The collision to shade.
+  const ScatteringQuery& query() const noexcept { return query_; }
   /// The ray to track, and its random stream, from which the tracker draws.
   const TrackRay& ray() const noexcept { return ray_; }
   Rng& rng() noexcept { return rng_; }
@@ -44,19 +48,25 @@ class CameraPath {
   bool scattered_out(const SceneView& scene) const noexcept {
     return scene.max_scatter > 0 && depth_ == scene.max_scatter;
   }
+  /// Whether one more makes it so.
+  bool scatters_last(const SceneView& scene) const noexcept {
+    return scene.max_scatter > 0 && depth_ + 1 == scene.max_scatter;
+  }
   bool enters() const noexcept { return ray_.t_near < ray_.t_far; }
-  TrackRay scattered_ray(const SceneView& scene) const noexcept;
-  Wait fly(const SceneView& scene, TraceCounters& counters) noexcept;
+  TrackRay turned_ray() const noexcept;
+  Wait fly(const SceneView& scene) noexcept;
   Wait end() noexcept;
   Vec3f weighted(const SceneView& scene, const LightHit& hit) const noexcept;
   Vec3f met_emitters(const SceneView& scene, const Collision& collision) const noexcept;
   Vec3f background(const SceneView& scene) noexcept;
+  void ask(const SceneView& scene, const Collision& collision) noexcept;
   void add_first(Vec3f light) noexcept;
-  Wait sample_direct_light(const SceneView& scene, TraceCounters& counters) noexcept;
   Wait next_light_sample(const SceneView& scene, TraceCounters& counters) noexcept;
+  bool cast(const SceneView& scene, const LightSample& light, const ScatterValue& scattered,
+            const TrackRay& ray, TraceCounters& counters) noexcept;
   int light_samples(const SceneView& scene) const noexcept { return depth_ == 0 ? scene.light_samples : 1; }
   float flight_share(const SceneView& scene) const noexcept;
-  Wait scatter(const SceneView& scene, TraceCounters& counters) noexcept;
+  Wait turn(const SceneView& scene, TraceCounters& counters) noexcept;
   Wait reach_lights(const SceneView& scene, TraceCounters& counters) noexcept;
   bool survives() noexcept;
   float shadow_ray_boost(const SceneView& scene) noexcept;
@@ -69,10 +79,13 @@ class CameraPath {
   Vec3f throughput_;
   float direction_pdf_ = 0;  ///< with which the direction was sampled; 0 for the camera's
   int depth_ = 0;            ///< scatterings so far
-  ScatterPoint point_{};     ///< of the present scattering
+  ScatteringQuery query_{};  ///< of the present scattering, as what follows
+  ScatterPoint point_{};
   ScatterChoice choice_{};
+  ScatterSample turn_{};
+  TrackRay turn_ray_;
+  bool meets_rect_ = false;  ///< whether any rect light shines against it
   Vec3f p_world_;
-  float u_pick_ = 0;
   int light_samples_left_ = 0;
   /// Light samples taken where the present direction was drawn, over the probability of following that.
   float hit_samples_ = 1;

@@ -4,6 +4,7 @@
 #include "film/film.h"
 #include "film/tile.h"
 #include "film/trace_counters.h"
+#include "integrator/primary_ray.h"
 #include "integrator/scene_view.h"
 
 namespace voxlume {
@@ -18,6 +19,11 @@ PixelSample trace_camera_sample(const SceneView& scene, int x, int y, std::uint3
 /// instruction set that scene.simd names; the results are those of trace_camera_sample with every one.
 void trace_tile(const SceneView& scene, const TileRect& tile, int sample_begin, int sample_end,
                 std::span<PixelSample> samples, std::span<RadianceParts> parts, TraceCounters& counters);
+
+/// The samples that begin with `rays`, in their order; samples.size() == rays.size(). By the instruction set
+/// that scene.simd names, with the results of every other.
+void trace_rays(const SceneView& scene, std::span<const PrimaryRay> rays, std::span<PixelSample> samples,
+                TraceCounters& counters);
 
 /// Adds samples [sample_begin, sample_end) of every pixel of `tile` to `film`, in sample order, and to its
 /// classes if it keeps them; then the scene must keep parts.

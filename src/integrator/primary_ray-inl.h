@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "integrator/primary_ray.h"
+#include "integrator/vector_ray-inl.h"
 #include "sampling/vector_random-inl.h"
 #include "sampling/warp.h"
 
@@ -34,20 +35,9 @@ class PrimaryRayVector {
   static constexpr hn::RebindToSigned<decltype(kF)> kI{};
   static constexpr hn::RebindToUnsigned<decltype(kF)> kU{};
   using F = hn::Vec<decltype(kF)>;
-  struct Vec {
-    F x, y, z;
-    F& operator[](int a) { return a == 0 ? x : a == 1 ? y : z; }
-  };
+  using Vec = Vector3<F>;
 
   static F set(float x) { return hn::Set(kF, x); }
-  static Vec scaled(Vec3f v, F s) {
-    return {hn::Mul(set(v.x), s), hn::Mul(set(v.y), s), hn::Mul(set(v.z), s)};
-  }
-  static Vec add(Vec a, Vec b) { return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)}; }
-  static Vec broadcast(Vec3f v) { return {set(v.x), set(v.y), set(v.z)}; }
-  static Vec linear(const Affinef& m, const Vec& v) {
-    return add(add(scaled(m.column_x, v.x), scaled(m.column_y, v.y)), scaled(m.column_z, v.z));
-  }
   static void store(const Vec& from, PrimaryRayBatch::Column<float> (&to)[3], std::size_t v) {
     hn::Store(from.x, kF, to[0].data() + v);
     hn::Store(from.y, kF, to[1].data() + v);
@@ -73,23 +63,6 @@ class PrimaryRayVector {
     const F offset =
         hn::Mul(set(sigma * std::numbers::sqrt2_v<float>), inverse_erf(hn::Mul(centred, set(kErfOfCut))));
     return hn::Min(hn::Max(offset, set(-radius_px)), set(radius_px));
-  }
-
-  /// clip_ray: cuts [t_near, t_far] to `box`, or makes it empty.
-  static void clip(const Box3f& box, Vec origin, Vec direction, F& t_near, F& t_far) {
-    auto misses = hn::Lt(set(0.0f), set(0.0f));
-    F near = t_near, far = t_far;
-    for (int a = 0; a < 3; ++a) {
-      const F o = origin[a], d = direction[a], lower = set(box.lower[a]), upper = set(box.upper[a]);
-      const auto still = hn::Eq(d, hn::Zero(kF));
-      misses = hn::Or(misses, hn::And(still, hn::Or(hn::Lt(o, lower), hn::Gt(o, upper))));
-      const F inverse = hn::Div(set(1.0f), hn::IfThenElse(still, set(1.0f), d));
-      const F t0 = hn::Mul(hn::Sub(lower, o), inverse), t1 = hn::Mul(hn::Sub(upper, o), inverse);
-      near = hn::IfThenElse(still, near, hn::Max(near, hn::Min(t0, t1)));
-      far = hn::IfThenElse(still, far, hn::Min(far, hn::Max(t0, t1)));
-    }
-    t_near = hn::IfThenElse(misses, set(1.0f), near);
-    t_far = hn::IfThenElse(misses, set(0.0f), far);
   }
 
   void fill(std::size_t v) {
@@ -131,27 +104,23 @@ class PrimaryRayVector {
         hn::Mul(hn::Sub(hn::Div(hn::Mul(two, px), set(camera.width_px)), one), set(camera.half_width));
     const F along =
         hn::Mul(hn::Sub(one, hn::Div(hn::Mul(two, py), set(camera.height_px))), set(camera.half_height));
-    const Vec offset = add(scaled(camera.right, across), scaled(camera.up, along));
-    Vec origin = broadcast(camera.eye_mm), direction = broadcast(camera.forward);
+    const Vec offset = broadcast<F>(camera.right) * across + broadcast<F>(camera.up) * along;
+    Vec origin = broadcast<F>(camera.eye_mm), direction = broadcast<F>(camera.forward);
     if (camera.orthographic)
-      origin = add(origin, offset);
+      origin = origin + offset;
     else
-      direction = add(direction, offset);
-    const F norm2 = hn::Add(hn::Add(hn::Mul(direction.x, direction.x), hn::Mul(direction.y, direction.y)),
-                            hn::Mul(direction.z, direction.z));
-    const F inverse_length = hn::Div(one, hn::Sqrt(norm2));
-    for (int a = 0; a < 3; ++a) direction[a] = hn::Mul(direction[a], inverse_length);
+      direction = direction + offset;
+    direction = normalize(direction);
 
     const Affinef& index = scene_.medium.grid.index_from_world;
-    const Vec origin_index = add(linear(index, origin), broadcast(index.translation));
-    const Vec direction_index = linear(index, direction);
-    F t_near = hn::Zero(kF), t_far = set(std::numeric_limits<float>::infinity());
-    clip(scene_.domain_index, origin_index, direction_index, t_near, t_far);
-    F clip_near = t_near, clip_far = t_far;
-    clip(scene_.clip_world, origin, direction, clip_near, clip_far);
-    const auto enters = hn::Lt(t_near, t_far);
-    hn::Store(hn::IfThenElse(enters, clip_near, t_near), kF, batch_.t_near.data() + v);
-    hn::Store(hn::IfThenElse(enters, clip_far, t_far), kF, batch_.t_far.data() + v);
+    const Vec origin_index = mapped_point(index, origin);
+    const Vec direction_index = mapped_vector(index, direction);
+    F t_near, t_far;
+    const bool clipped = true;
+    vector_visible_part(scene_, origin_index, direction_index, origin, direction,
+                        set(std::numeric_limits<float>::infinity()), clipped, t_near, t_far);
+    hn::Store(t_near, kF, batch_.t_near.data() + v);
+    hn::Store(t_far, kF, batch_.t_far.data() + v);
     store(origin, batch_.origin_world, v);
     store(direction, batch_.direction_world, v);
     store(origin_index, batch_.origin_index, v);

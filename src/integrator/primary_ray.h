@@ -47,9 +47,23 @@ struct PrimaryRay {
   bool enters;     ///< false: there is none
 };
 
-/// The ray of sample `sample` of pixel (x, y). The random stream depends on (seed, frame, pixel, sample)
-/// alone.
+/// What a camera sample's random numbers depend on, alone.
+struct SampleStream {
+  std::uint64_t seed;
+  std::uint32_t frame;
+  std::uint32_t pixel;  ///< row * width + column
+  std::uint32_t sample;
+};
+
+/// The stream of sample `sample` of the scene's pixel (x, y).
+SampleStream sample_stream(const SceneView& scene, int x, int y, std::uint32_t sample) noexcept;
+
+/// The ray of sample `sample` of pixel (x, y).
 PrimaryRay make_primary_ray(const SceneView& scene, int x, int y, std::uint32_t sample) noexcept;
+
+/// The ray of a sample of any stream, of a pixel whose middle is image point (center_px, center_py).
+PrimaryRay make_primary_ray(const SceneView& scene, const SampleStream& stream, float center_px,
+                            float center_py) noexcept;
 
 /// Many primary rays, a column of every array each.
 struct alignas(64) PrimaryRayBatch {

@@ -3,9 +3,8 @@
 #include "material/surface_share.h"
 
 namespace voxlume {
-namespace {
 
-Vec3f label_color(const LabelsView& labels, Vec3f p_world, Vec3f albedo) noexcept {
+Vec3f labelled_albedo(const LabelsView& labels, Vec3f p_world, Vec3f albedo) noexcept {
   const Vec3f p_index = labels.grid.index_from_world.point(p_world);
   const Box3f box = labels.grid.index_box();
   if (!box.contains(p_index)) return albedo;
@@ -15,14 +14,11 @@ Vec3f label_color(const LabelsView& labels, Vec3f p_world, Vec3f albedo) noexcep
   return color.x < 0 ? albedo : albedo + (color - albedo) * labels.strength;
 }
 
-/// Sum of the outward normals of the faces less than `reach_mm` away, each fading from 1 on the face to 0.
 Vec3f face_normals(const Box3f& clip_world, const GridView& grid, Vec3f p_index, Vec3f p_world) noexcept {
   const float reach_mm = grid.step_mm;
   const Box3f domain = grid.index_box();
-  const Vec3f reach_world(reach_mm);
-  const Box3f deep_index{domain.lower + grid.step_index, domain.upper - grid.step_index};
-  const Box3f deep_world{clip_world.lower + reach_world, clip_world.upper - reach_world};
-  if (deep_index.contains(p_index) && deep_world.contains(p_world)) return Vec3f(0);
+  const FaceReach reach(clip_world, grid);
+  if (reach.deep_index.contains(p_index) && reach.deep_world.contains(p_world)) return Vec3f(0);
   Vec3f sum(0);
   for (int a = 0; a < 3; ++a) {
     Vec3f axis(0);
@@ -40,8 +36,6 @@ Vec3f face_normals(const Box3f& clip_world, const GridView& grid, Vec3f p_index,
   return sum;
 }
 
-}  // namespace
-
 MatterPoint matter_at(const SceneView& scene, Vec3f p_index, float value) noexcept {
   const GridView& grid = scene.medium.grid;
   const ScatteringView& scattering = scene.scattering;
@@ -55,7 +49,7 @@ MatterPoint matter_at(const SceneView& scene, Vec3f p_index, float value) noexce
   scatter.normal = Vec3f(0);
   scatter.p_brdf = 0;
   scatter.albedo =
-      scene.labels.color_count ? label_color(scene.labels, p_world, optics.albedo) : optics.albedo;
+      scene.labels.color_count ? labelled_albedo(scene.labels, p_world, optics.albedo) : optics.albedo;
   scatter.g = scattering.g;
   scatter.alpha = scattering.alpha;
   scatter.f0 = scattering.f0;

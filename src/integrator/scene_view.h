@@ -66,9 +66,8 @@ struct SceneView {
 
 /// The part of a ray up to t_max [mm] that is inside the volume and, if `clipped`, inside the clip box. None:
 /// t_near >= t_far.
-inline TrackRay visible_part(const SceneView& scene, Vec3f origin_world, Vec3f direction_world, float t_max,
-                             bool clipped) noexcept {
-  const IndexRay ray = to_index_ray(scene.medium.grid, origin_world, direction_world);
+inline TrackRay visible_part(const SceneView& scene, const IndexRay& ray, Vec3f origin_world,
+                             Vec3f direction_world, float t_max, bool clipped) noexcept {
   Interval<float> run = clip_ray(scene.domain_index, ray.origin_index, ray.direction_index, 0.0f, t_max);
   if (!run.empty() && clipped)
     run = clip_ray(scene.clip_world, origin_world, direction_world, run.t_near, run.t_far);

@@ -42,21 +42,36 @@ inline float rect_solid_angle(const RectFromPoint& r) noexcept {
   return 2.0f * (std::atan2(volume, abc) + std::atan2(volume, acd));
 }
 
-/// How a rect is sampled from a point. Solid angle is best where floats allow it. Far away the light's area
-/// is sampled; close to its plane, where the area's density has no bound, the hemisphere toward it.
+/// How a rect is sampled from a point. Far away by its area, which takes no trigonometry; nearer by its solid
+/// angle; close to its plane, where the area's density has no bound, by the hemisphere toward it.
 enum class RectSampling { kArea, kSolidAngle, kHemisphere };
 
-inline RectSampling rect_sampling(float solid_angle) noexcept {
-  return solid_angle < 1e-4f  ? RectSampling::kArea
-         : solid_angle > 6.2f ? RectSampling::kHemisphere
-                              : RectSampling::kSolidAngle;
+/// Far is a centre at least this many half diagonals away: seen from the front its density then varies
+/// by a quarter at most.
+constexpr float kFarHalfDiagonals = 2.5f;
+
+/// How a rect is sampled from a point, and the part of the density that does not depend on the direction.
+struct RectTechnique {
+  RectSampling sampling;
+  float solid_angle;  ///< sr; 0 for kArea
+};
+
+inline RectTechnique rect_technique(const RectFromPoint& r) noexcept {
+  const Vec3f twice_centre(r.x0 + r.x1, r.y0 + r.y1, 2.0f * r.height),
+      diagonal(r.x1 - r.x0, r.y1 - r.y0, 0.0f);
+  const float far2 = kFarHalfDiagonals * kFarHalfDiagonals;
+  if (dot(twice_centre, twice_centre) > far2 * dot(diagonal, diagonal)) return {RectSampling::kArea, 0.0f};
+  const float solid_angle = rect_solid_angle(r);
+  // Too small for floats: seen from its own plane.
+  if (solid_angle < 1e-4f) return {RectSampling::kArea, 0.0f};
+  return {solid_angle > 6.2f ? RectSampling::kHemisphere : RectSampling::kSolidAngle, solid_angle};
 }
 
 /// Density (1/sr) of sampling the rect's point at distance `distance_mm`.
-inline float rect_pdf(const RectFromPoint& r, float solid_angle, float distance_mm) noexcept {
-  switch (rect_sampling(solid_angle)) {
+inline float rect_pdf(const RectFromPoint& r, const RectTechnique& technique, float distance_mm) noexcept {
+  switch (technique.sampling) {
     case RectSampling::kSolidAngle:
-      return 1.0f / solid_angle;
+      return 1.0f / technique.solid_angle;
     case RectSampling::kHemisphere:
       return 0.5f * std::numbers::inv_pi_v<float>;
     case RectSampling::kArea:
@@ -109,10 +124,11 @@ inline RectPoint sample_rect_solid_angle(const RectFromPoint& r, float solid_ang
 }
 
 /// The point of the rect that u0, u1 stand for, with density rect_pdf; outside the rect: none.
-inline RectPoint sample_rect(const RectFromPoint& r, float solid_angle, float u0, float u1) noexcept {
-  switch (rect_sampling(solid_angle)) {
+inline RectPoint sample_rect(const RectFromPoint& r, const RectTechnique& technique, float u0,
+                             float u1) noexcept {
+  switch (technique.sampling) {
     case RectSampling::kSolidAngle:
-      return sample_rect_solid_angle(r, solid_angle, u0, u1);
+      return sample_rect_solid_angle(r, technique.solid_angle, u0, u1);
     case RectSampling::kHemisphere:
       return sample_rect_hemisphere(r, u0, u1);
     case RectSampling::kArea:

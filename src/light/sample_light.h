@@ -33,12 +33,12 @@ inline LightSample no_light() noexcept {
 inline LightSample sample_rect_light(const Light& light, Vec3f p_world, float u0, float u1) noexcept {
   const RectFromPoint r = rect_from_point(light, p_world);
   if (!rect_emits_toward(light, r.height)) return no_light();
-  const float solid_angle = rect_solid_angle(r);
-  const RectPoint q = sample_rect(r, solid_angle, u0, u1);
+  const RectTechnique technique = rect_technique(r);
+  const RectPoint q = sample_rect(r, technique, u0, u1);
   if (q.x < r.x0 || q.x > r.x1 || q.y < r.y0 || q.y > r.y1) return no_light();
   const Vec3f to_light = light.axis_x * q.x + light.axis_y * q.y - light.direction * r.height;
   const float distance_mm = length(to_light);
-  return {to_light * (1.0f / distance_mm), distance_mm, light.emission, rect_pdf(r, solid_angle, distance_mm),
+  return {to_light * (1.0f / distance_mm), distance_mm, light.emission, rect_pdf(r, technique, distance_mm),
           false};
 }
 
@@ -97,8 +97,16 @@ void visit_rect_hits(const LightsView& view, Vec3f origin, Vec3f direction, floa
     const float x = t * dot(direction, light.axis_x);
     const float y = t * dot(direction, light.axis_y);
     if (x < r.x0 || x > r.x1 || y < r.y0 || y > r.y1) continue;
-    visit(LightHit{light.emission, rect_pdf(r, rect_solid_angle(r), t) * bin_probability(view.pick, i)});
+    visit(LightHit{light.emission, rect_pdf(r, rect_technique(r), t) * bin_probability(view.pick, i)});
   }
+}
+
+/// Whether any rect light shines against the ray, however far.
+inline bool meets_rect_light(const LightsView& view, Vec3f origin, Vec3f direction) noexcept {
+  bool meets = false;
+  visit_rect_hits(view, origin, direction, std::numeric_limits<float>::infinity(),
+                  [&](const LightHit&) { meets = true; });
+  return meets;
 }
 
 }  // namespace voxlume

@@ -120,10 +120,10 @@ inline SurfaceValue eval_surface(const SurfaceLobe& lobe, Vec3f normal, Vec3f wo
 /// caps (Dupuy and Benyoub 2023).
 inline Vec3f sample_visible_normal(Vec3f wo, float alpha, float u0, float u1) noexcept {
   const Vec3f stretched = normalize(Vec3f(alpha * wo.x, alpha * wo.y, wo.z));
-  const float phi = 2.0f * std::numbers::pi_v<float> * u0;
+  const SineCosine phi = sine_cosine_of_turns(u0);
   const float z = (1.0f - u1) * (1.0f + stretched.z) - stretched.z;
   const float sin_theta = std::sqrt(std::max(0.0f, (1.0f - z) * (1.0f + z)));
-  const Vec3f cap = Vec3f(sin_theta * std::cos(phi), sin_theta * std::sin(phi), z) + stretched;
+  const Vec3f cap = Vec3f(sin_theta * phi.cosine, sin_theta * phi.sine, z) + stretched;
   return normalize(Vec3f(alpha * cap.x, alpha * cap.y, std::max(cap.z, 1e-20f)));
 }
 

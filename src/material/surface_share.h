@@ -1,7 +1,7 @@
 #pragma once
 #include <algorithm>
-#include <cmath>
 
+#include "sampling/elementary.h"
 #include "voxlume/scene.h"
 
 namespace voxlume {
@@ -15,11 +15,11 @@ inline float surface_share(SurfaceShareForm form, float gradient_factor, bool op
   switch (form) {
     case SurfaceShareForm::kHybrid: {
       const float exponent = 25.0f * gradient_factor * gradient_factor * gradient_factor;
-      const float share = 1.0f - std::exp(-exponent * gradient_normalized);
+      const float share = one_minus_exp(exponent * gradient_normalized);
       return opacity_modulated ? opacity * share : share;
     }
     case SurfaceShareForm::kExponential:
-      return 1.0f - std::exp(-gradient_factor * gradient_normalized);
+      return one_minus_exp(gradient_factor * gradient_normalized);
     case SurfaceShareForm::kModulation: {
       const float rest = 1.0f - std::min(gradient_normalized, 1.0f);
       return 1.0f - rest * rest;

@@ -1,5 +1,6 @@
 #include "render/film_image.h"
 
+#include "render/frame_image.h"
 #include "voxlume/error.h"
 
 namespace voxlume {
@@ -43,7 +44,13 @@ const LayerKind& layer_kind(const std::string& name) {
     if (name == kind.name) return kind;
     known += (known.empty() ? "" : ", ") + std::string(kind.name);
   }
+  known += std::string(", ") + kDenoiseAov;
   throw Error(ErrorCode::kBadParameter, "", "unknown AOV \"" + name + "\"; expected one of " + known);
+}
+
+FilmLayers needs_of(const std::string& name) {
+  if (name == kDenoiseAov) return {.normal = true, .albedo = true, .classes = true};
+  return layer_kind(name).needs;
 }
 
 ImageLayer make_layer(const Film& film, const LayerKind& kind) {
@@ -65,10 +72,11 @@ ImageLayer make_layer(const Film& film, const LayerKind& kind) {
 FilmLayers film_layers(const std::vector<std::string>& aovs) {
   FilmLayers layers;
   for (const std::string& name : aovs) {
-    const FilmLayers needs = layer_kind(name).needs;
+    const FilmLayers needs = needs_of(name);
     layers.depth |= needs.depth;
     layers.normal |= needs.normal;
     layers.albedo |= needs.albedo;
+    layers.classes |= needs.classes;
   }
   return layers;
 }
@@ -86,13 +94,13 @@ Image image_from_film(const Film& film, const std::vector<std::string>& aovs, bo
     }
   }
   for (const std::string& name : aovs) {
-    const LayerKind& kind = layer_kind(name);
-    const FilmLayers has = film.layers();
-    if ((kind.needs.depth && !has.depth) || (kind.needs.normal && !has.normal) ||
-        (kind.needs.albedo && !has.albedo)) {
+    const FilmLayers needs = needs_of(name), has = film.layers();
+    if ((needs.depth && !has.depth) || (needs.normal && !has.normal) || (needs.albedo && !has.albedo) ||
+        (needs.classes && !has.classes)) {
       throw Error(ErrorCode::kBadParameter, "", "the film does not keep the AOV \"" + name + "\"");
     }
-    if (image.layer(name) == nullptr) image.layers.push_back(make_layer(film, kind));
+    if (name == kDenoiseAov || image.layer(name) != nullptr) continue;
+    image.layers.push_back(make_layer(film, layer_kind(name)));
   }
   return image;
 }

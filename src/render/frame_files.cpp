@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
+
 #include "voxlume/error.h"
 
 namespace voxlume {
@@ -25,6 +28,23 @@ FramePattern::FramePattern(const std::filesystem::path& path, const std::string&
 
 std::filesystem::path FramePattern::path(int frame) const {
   return folder_ / fmt::format("{}{:0{}}{}", before_, frame, digits_, after_);
+}
+
+std::vector<int> FramePattern::frames_on_disk() const {
+  std::vector<int> frames;
+  std::error_code failed;
+  std::filesystem::directory_iterator files(folder_.empty() ? "." : folder_, failed);
+  for (; !failed && files != std::filesystem::directory_iterator(); files.increment(failed)) {
+    const std::string name = files->path().filename().string();
+    if (name.size() < before_.size() + after_.size()) continue;
+    int frame = 0;
+    const auto [stop, error] =
+        std::from_chars(name.data() + before_.size(), name.data() + name.size(), frame);
+    if (error == std::errc{} && frame >= 0 && path(frame).filename().string() == name)
+      frames.push_back(frame);
+  }
+  std::sort(frames.begin(), frames.end());
+  return frames;
 }
 
 }  // namespace voxlume

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace voxlume {
 
@@ -21,6 +22,10 @@ class FramePattern {
 
   /// Longer numbers than there are # take the room they need.
   std::filesystem::path path(int frame) const;
+
+  /// The numbers of the files that are there, ascending; those that path() would write otherwise do not
+  /// count.
+  std::vector<int> frames_on_disk() const;
 
  private:
   std::filesystem::path folder_;

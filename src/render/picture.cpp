@@ -1,12 +1,17 @@
 #include "render/picture.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "base/file_extension.h"
 #include "image_io/image_io.h"
 #include "integrator/path_tracer.h"
+#include "render/camera_text.h"
 #include "render/checkpoint.h"
+#include "render/denoise_frame.h"
 #include "render/film_image.h"
+#include "render/frame_image.h"
+#include "scene/resolve.h"
 #include "scene/scene_file.h"
 #include "tonemap/tone_map.h"
 
@@ -19,25 +24,8 @@ std::string anonymous_scene(SceneDescription scene) {
   return write_scene(scene);
 }
 
-nlohmann::json vector_json(Vec3f v) { return {double{v.x}, double{v.y}, double{v.z}}; }
-
-/// The camera that rendered, in the volume's own space.
-std::string camera_json(const CameraView& camera, const Double3& origin_mm) {
-  const auto point = [&](Vec3f p) {
-    return nlohmann::json{origin_mm[0] + p.x, origin_mm[1] + p.y, origin_mm[2] + p.z};
-  };
-  return nlohmann::ordered_json{{"eye_mm", point(camera.eye_mm)},
-                                {"target_mm", point(camera.target_mm)},
-                                {"right", vector_json(camera.right)},
-                                {"up", vector_json(camera.up)},
-                                {"forward", vector_json(camera.forward)},
-                                {"half_width", double{camera.half_width}},
-                                {"half_height", double{camera.half_height}},
-                                {"orthographic", camera.orthographic},
-                                {"width_px", static_cast<int>(camera.width_px)},
-                                {"height_px", static_cast<int>(camera.height_px)}}
-      .dump();
-}
+/// Samples of a pixel that are divided into classes together, where a denoiser asks for them.
+constexpr int kClassifiedTogether = 32;
 
 bool is_transparent(const SceneDescription& scene) {
   return scene.background && scene.background->kind == BackgroundKind::kTransparent;
@@ -48,31 +36,50 @@ bool is_transparent(const SceneDescription& scene) {
 PictureSamples render_picture(const CompiledScene& scene, const std::string& fingerprint,
                               const PictureOptions& options) {
   const ImageDescription& image = scene.description().image;
+  FilmLayers layers = film_layers(options.aovs);
+  const FilmLayers for_denoiser = denoiser_layers(scene.description().render.denoise);
+  layers.normal |= for_denoiser.normal;
+  layers.albedo |= for_denoiser.albedo;
+  layers.classes |= for_denoiser.classes;
   PictureSamples out{options.resume && std::filesystem::exists(options.checkpoint)
                          ? load_checkpoint(options.checkpoint, fingerprint)
-                         : RenderState{Film(image.width, image.height, film_layers(options.aovs)), {}, 0}};
+                         : RenderState{Film(image.width, image.height, layers), {}, 0}};
   RenderLoopOptions loop;
   loop.stop = {image.spp, image.seconds, image.noise};
+  if (layers.classes) loop.first_run = kClassifiedTogether;
   loop.threads = options.threads;
   loop.cancel = options.cancel;
   loop.checkpoint = options.checkpoint;
   loop.fingerprint = fingerprint;
   loop.progress = options.progress;
+  SceneView view = scene.view();
+  view.keeps_parts = out.state.film.layers().classes;
   const auto trace = [&](const TileRect& tile, int begin, int end, Film& film, TraceCounters& counters) {
-    render_tile(scene.view(), tile, begin, end, film, counters);
+    render_tile(view, tile, begin, end, film, counters);
   };
   out.status = run_render_loop(out.state, trace, loop).status;
   return out;
 }
 
 Image finish_picture(const RenderState& state, const CompiledScene& scene,
-                     const std::vector<std::string>& aovs, const std::optional<FrameStamp>& frame) {
+                     const std::vector<std::string>& aovs, const std::optional<FrameStamp>& frame,
+                     PictureDenoiser* denoiser) {
   const SceneDescription& description = scene.description();
   Image image = image_from_film(state.film, aovs, is_transparent(description));
+  if (std::find(aovs.begin(), aovs.end(), kDenoiseAov) != aovs.end()) {
+    DenoiseFrame layers;
+    const double size_mm = visible_sphere(scene.volume(), std::nullopt).radius_mm;
+    fill_denoise_frame(state.film, scene.view(), static_cast<float>(size_mm), layers);
+    add_denoise_layers(layers, image);
+  }
+  if (denoiser != nullptr) {
+    denoiser->apply(state.film, scene, image);
+    image.metadata["voxlume:denoiser"] = description.render.denoise;
+  }
   image.metadata["voxlume:scene"] = anonymous_scene(description);
   image.metadata["voxlume:seed"] = std::to_string(description.render.seed);
   image.metadata["voxlume:version"] = VOXLUME_VERSION;
-  image.metadata["voxlume:camera"] = camera_json(scene.view().camera, scene.origin_mm());
+  image.metadata["voxlume:camera"] = write_camera(scene.view().camera, scene.origin_mm());
   if (frame) {
     image.metadata["voxlume:frame"] = std::to_string(frame->number);
     image.metadata["voxlume:time_s"] = nlohmann::json(frame->time_s).dump();

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "render/picture_denoiser.h"
 #include "render/render_loop.h"
 #include "scene/compile.h"
 #include "voxlume/image.h"
@@ -39,9 +40,11 @@ struct FrameStamp {
 };
 
 /// The picture of what was rendered, with its layers and metadata (voxlume/image.h). Between samples and
-/// picture this is the one place, for stills and frames alike; frames come in their order.
+/// picture this is the one place, for stills and frames alike; frames come in their order. It is denoised by
+/// `denoiser`, which may be null. Throws Error: those of PictureDenoiser.
 Image finish_picture(const RenderState& state, const CompiledScene& scene,
-                     const std::vector<std::string>& aovs, const std::optional<FrameStamp>& frame = {});
+                     const std::vector<std::string>& aovs, const std::optional<FrameStamp>& frame = {},
+                     PictureDenoiser* denoiser = nullptr);
 
 /// Writes a finished picture as PNG (developed as the scene says) or EXR, by the extension of `path`.
 /// Throws Error kFileNotFound, kInternal.

@@ -145,7 +145,7 @@ class Loop {
   double elapsed_s() const { return initial_elapsed_s_ + seconds_between(start_, Clock::now()); }
 
   int next_target() const {
-    int target = pass_end(least_);
+    int target = least_ == 0 ? options_.first_run : pass_end(least_);
     if (options_.stop.spp) target = std::min(target, *options_.stop.spp);
     if (options_.stop.seconds && traced_ > 0) {
       // Short passes toward the end, so that tiles differ little when time is over.
@@ -165,7 +165,8 @@ class Loop {
 
   void advance_tile(int tile, int target) {
     while (counts_[tile] < target && !cancelled() && !time_over() && !checkpoint_due()) {
-      const int run = std::min(target - counts_[tile], run_length(tiles_[tile]));
+      const bool first = counts_[tile] == 0;
+      const int run = first ? target : std::min(target - counts_[tile], run_length(tiles_[tile]));
       TraceCounters counters;
       const Clock::time_point begin = Clock::now();
       trace_(tiles_[tile], counts_[tile], counts_[tile] + run, state_.film, counters);

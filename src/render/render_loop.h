@@ -24,11 +24,14 @@ struct RenderState {
   Film film;
   TraceCounters counters;
   double elapsed_s = 0;  ///< first to last sample, without the time between interruption and resumption
-  int tile_size = 16;    ///< edge of a tile in pixels, 1..65536
+  int tile_size = 32;    ///< edge of a tile in pixels, 1..65536
 };
 
 struct RenderLoopOptions {
   StopRule stop;
+  /// Samples that the first run of a tile takes at once, at most: those of a pixel are then divided into
+  /// classes together (Film::add_classes). 1..kPassCap
+  int first_run = 1;
   int threads = 0;                                      ///< 0: all the machine has
   std::vector<int> tile_order;                          ///< a permutation of the tiles; empty: row by row
   std::function<void(const RenderProgress&)> progress;  ///< called by one thread, at most 10 times a second

@@ -1,5 +1,6 @@
 #include "render/sequence.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "image_io/picture_text.h"
@@ -16,6 +17,9 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* kDigestText = "voxlume:digest";
+/// Frames that a denoiser is shown again before one that follows a gap. What it keeps of older ones is a few
+/// percent.
+constexpr int kRecalledFrames = 32;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -28,14 +32,42 @@ class SequenceLoop {
       : session_(session), frames_(frames), options_(options) {}
 
   RenderStatus run() {
+    const std::string& method = session_.description().render.denoise;
+    if (method != "none") denoiser_.emplace(method);
+    int last = -1;
     for (const int frame : frames_) {
+      if (denoiser_ && denoiser_->remembers()) {
+        for (int before = std::max(last + 1, frame - kRecalledFrames); before < frame; ++before)
+          if (recall(before) == RenderStatus::kCancelled) return RenderStatus::kCancelled;
+      }
       if (render(frame) == RenderStatus::kCancelled) return RenderStatus::kCancelled;
+      last = frame;
       ++written_;
     }
     return RenderStatus::kDone;
   }
 
  private:
+  /// The options of every frame.
+  PictureOptions picture_options(int frame) const {
+    PictureOptions picture;
+    picture.threads = options_.threads;
+    picture.cancel = options_.cancel;
+    if (options_.progress)
+      picture.progress = [this, frame](const RenderProgress& p) { options_.progress(progress(frame, p)); };
+    return picture;
+  }
+
+  /// Shows the denoiser a frame that is there already, or is not asked for.
+  RenderStatus recall(int frame) {
+    session_.compile(session_.frame_description(frame));
+    const CompiledScene& scene = session_.compiled();
+    const PictureSamples samples =
+        render_picture(scene, session_.fingerprint(scene.description()), picture_options(frame));
+    if (samples.status != RenderStatus::kCancelled) finish_picture(samples.state, scene, {}, {}, &*denoiser_);
+    return samples.status;
+  }
+
   RenderStatus render(int frame) {
     const Clock::time_point begin = Clock::now();
     session_.compile(session_.frame_description(frame));
@@ -43,19 +75,16 @@ class SequenceLoop {
     const double compile_s = seconds_since(begin);
     const fs::path file = options_.files.path(frame);
 
-    PictureOptions picture;
+    PictureOptions picture = picture_options(frame);
     if (is_exr_name(file)) picture.aovs = scene.description().image.aovs;
-    picture.threads = options_.threads;
     picture.checkpoint = checkpoint_path(file);
     picture.resume = options_.resume;
-    picture.cancel = options_.cancel;
-    if (options_.progress)
-      picture.progress = [&](const RenderProgress& p) { options_.progress(progress(frame, p)); };
     const PictureSamples samples = render_picture(scene, session_.fingerprint(scene.description()), picture);
     if (samples.status == RenderStatus::kCancelled) return samples.status;
 
     const double time_s = frame_time_s(*session_.description().animation, frame);
-    Image image = finish_picture(samples.state, scene, picture.aovs, FrameStamp{frame, time_s});
+    Image image = finish_picture(samples.state, scene, picture.aovs, FrameStamp{frame, time_s},
+                                 denoiser_ ? &*denoiser_ : nullptr);
     image.metadata[kDigestText] = session_.digest(scene.description());
     save_picture(image, scene.description(), file);
     std::error_code ignored;
@@ -91,6 +120,7 @@ class SequenceLoop {
   Session& session_;
   const std::vector<int>& frames_;
   const SequenceOptions& options_;
+  std::optional<PictureDenoiser> denoiser_;
   const Clock::time_point start_ = Clock::now();
   std::size_t written_ = 0;
 };

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "base/vec.h"
+#include "sampling/elementary.h"
 #include "sampling/logarithm.h"
 #include "voxlume/scene.h"
 
@@ -18,8 +19,8 @@ constexpr float kUniformSpherePdf = 0.25f * std::numbers::inv_pi_v<float>;
 /// the versine keeps its relative precision near the axis.
 inline Vec3f direction_from_versine(float versine, float u1) noexcept {
   const float sin_theta = std::sqrt(std::max(0.0f, versine * (2.0f - versine)));
-  const float phi = 2.0f * std::numbers::pi_v<float> * u1;
-  return {sin_theta * std::cos(phi), sin_theta * std::sin(phi), 1.0f - versine};
+  const SineCosine phi = sine_cosine_of_turns(u1);
+  return {sin_theta * phi.cosine, sin_theta * phi.sine, 1.0f - versine};
 }
 
 /// Unit vector, uniform over the sphere.
@@ -39,12 +40,11 @@ struct DiskPoint {
 inline DiskPoint concentric_disk(float u0, float u1) noexcept {
   const float a = 2.0f * u0 - 1.0f;
   const float b = 2.0f * u1 - 1.0f;
-  if (a == 0.0f && b == 0.0f) return {0.0f, 0.0f};
-  constexpr float kQuarterPi = 0.25f * std::numbers::pi_v<float>;
   const bool a_leads = std::abs(a) > std::abs(b);
   const float radius = a_leads ? a : b;
-  const float phi = a_leads ? kQuarterPi * (b / a) : 2.0f * kQuarterPi - kQuarterPi * (a / b);
-  return {radius * std::cos(phi), radius * std::sin(phi)};
+  const float eighths = radius == 0.0f ? 0.0f : (a_leads ? b : a) / radius;
+  const SineCosine phi = sine_cosine_of_turns(a_leads ? 0.125f * eighths : 0.25f - 0.125f * eighths);
+  return {radius * phi.cosine, radius * phi.sine};
 }
 
 /// Unit vector about +z with density cosine_hemisphere_pdf (Malley's method).

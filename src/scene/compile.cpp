@@ -40,12 +40,6 @@ SimdTarget simd_target(const std::string& name) {
               "this machine has no \"" + name + "\"; available: " + available);
 }
 
-void check_built(const RenderDescription& render) {
-  if (render.denoise != "none")
-    throw Error(ErrorCode::kUnsupported, "/render/denoise",
-                "\"" + render.denoise + "\" is not built yet; available: none");
-}
-
 /// Throws unless every finite voxel is a whole number (NaN counts as background).
 void check_whole_numbers(const GridView& grid, const std::string& path) {
   std::atomic<bool> fractions{false};
@@ -178,7 +172,6 @@ void CompiledScene::compile(SceneDescription description, bool everything) {
 CompiledScene::Parts CompiledScene::compile_parts(const SceneDescription& description,
                                                   bool everything) const {
   const RenderDescription& render = description.render;
-  check_built(render);
   simd_target(render.simd);
   Parts parts;
   if (everything || !(description.transfer == description_.transfer)) {

@@ -14,9 +14,11 @@ inline const WordChoices kAcceleratorWords{{"auto", "none", "macrocell", "octree
                                            {}};
 inline const WordChoices kHierarchyRuleWords{{"cost", "thresholds"}, {}};
 inline const WordChoices kSimdWords{{"auto", "scalar", "sse4", "avx2", "avx512", "neon"}, {}};
-inline const WordChoices kDenoiseWords{{"none"}, {"decoupled", "wrls", "svgf"}};
+inline const WordChoices kDenoiseWords{{"none", "decoupled", "svgf", "asvgf", "atrous", "bilateral", "wrls",
+                                        "rls", "wrls-no-feature", "rls-no-feature", "oidn"},
+                                       {}};
 inline const WordChoices kLightSamplingWords{{"mis", "light", "direction"}, {}};
-inline const WordChoices kAovWords{{"alpha", "depth", "normal", "albedo", "samples", "variance"}, {}};
+inline const WordChoices kAovWords{{"alpha", "depth", "normal", "albedo", "samples", "variance", "denoise"}, {}};
 
 inline StructInfo struct_info(Struct<ImageDescription>) {
   return {"Image",
@@ -127,7 +129,10 @@ void visit_fields(V&& visit, Struct<RenderDescription>) {
          .range = between(0, 100)},
         &T::shadow_roulette);
   visit({.key = "simd", .doc = "Instruction set.", .words = &kSimdWords}, &T::simd);
-  visit({.key = "denoise", .doc = "Denoiser.", .words = &kDenoiseWords}, &T::denoise);
+  visit({.key = "denoise",
+         .doc = "Takes noise out of the finished picture (docs/denoising.md).",
+         .words = &kDenoiseWords},
+        &T::denoise);
   visit({.key = "light_sampling",
          .doc = "How light is gathered at a scattering: both techniques (mis), next-event estimation (light) "
                 "or direction sampling alone, which never finds point and directional lights.",

@@ -38,7 +38,8 @@ struct alignas(64) Lanes {
   alignas(64) PerLane<float> threshold{};  ///< transmittance below which the flight ends or roulette sets in
   alignas(64) PerLane<float> tau{}, rate{}, mu_maj{}, run_mm{}, exit_mm{};
   alignas(64) PerLane<std::int32_t> cell[3]{}, next_cell[3]{};
-  alignas(64) PerLane<std::uint32_t> word{}, next_word{};
+  alignas(64) PerLane<std::uint32_t> word{};
+  alignas(64) PerLane<std::int32_t> next_word_at{};  ///< where the next cell's word is
   /// The 8 voxels around the last look-up, as VoxelPairs lays them out, and the index of the first of them
   /// (-1 along i: none): the next look-up is often between the same.
   alignas(64) PerLane<std::uint32_t> pairs[8]{};

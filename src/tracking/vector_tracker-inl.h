@@ -6,14 +6,16 @@
 #define VOXLUME_TRACKING_VECTOR_TRACKER_INL_H_
 #endif
 
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <bit>
 
 #include "base/voxel_type.h"
+#include "grid/voxel_pairs-inl.h"
 #include "sampling/vector_random-inl.h"
 #include "tracking/lanes.h"
-#include "tracking/voxel_lanes-inl.h"
+#include "transfer/vector_transfer-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace voxlume {
@@ -157,7 +159,7 @@ class LaneTracker {
       store_where(where_f, inverse, lanes_.inverse[a], v);
       store_where(to_i(where_f), cell[a], lanes_.next_cell[a], v);
     }
-    fetch_next_word(where_f, cell, v);
+    prefetch_next_word(where_f, cell, v);
     store_where(where_f, length, lanes_.length_mm, v);
     // collision_threshold; shadow rays have one to begin with.
     const MaskF flight = hn::And(where_f, to_f(hn::Eq(load(lanes_.is_shadow, v), hn::Zero(kU))));
@@ -174,13 +176,18 @@ class LaneTracker {
     set_state(where, Lanes::kCross, v);
   }
 
-  /// Fetches the words of the next cells well before they are needed.
-  void fetch_next_word(MaskF where, const I (&cell)[3], std::size_t v) {
+  /// Notes where the words of the next cells are, and has them fetched well before they are needed: a gather
+  /// would wait for them.
+  void prefetch_next_word(MaskF where, const I (&cell)[3], std::size_t v) {
     const I at = hn::Add(hn::Add(hn::Mul(cell[2], hn::Set(kI, hierarchy_.stride_k)),
                                  hn::Mul(cell[1], hn::Set(kI, hierarchy_.stride_j))),
                          cell[0]);
-    const U word = hn::GatherIndex(kU, hierarchy_.words, hn::IfThenElseZero(to_i(where), at));
-    store_where(to_u(where), word, lanes_.next_word, v);
+    store_where(to_i(where), at, lanes_.next_word_at, v);
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(kF, where, bytes);
+    for (std::uint32_t bits = bytes[0] | bytes[1] << 8; bits; bits &= bits - 1)
+      hwy::Prefetch(hierarchy_.words +
+                    lanes_.next_word_at[v + static_cast<std::size_t>(std::countr_zero(bits))]);
   }
 
   /// Leaves the block that a lane is in and enters the next: HierarchyWalk::next.
@@ -196,7 +203,9 @@ class LaneTracker {
 
     const I cell[3] = {load(lanes_.next_cell[0], v), load(lanes_.next_cell[1], v),
                        load(lanes_.next_cell[2], v)};
-    const U word = load(lanes_.next_word, v);
+    const U word =
+        hn::GatherIndex(kU, hierarchy_.words,
+                        hn::IfThenElseZero(to_i(hn::AndNot(ends, where_f)), load(lanes_.next_word_at, v)));
     const U level = hn::And(word, hn::Set(kU, kLevelMask));
     const F mu_maj = hn::Mul(majorant(word), load(lanes_.rate, v));
     const I size = hn::BitCast(kI, hn::Shl(hn::Set(kU, 1), level)), mask = hn::Neg(size);
@@ -229,7 +238,7 @@ class LaneTracker {
       store_where(to_i(where_f), next[a], lanes_.next_cell[a], v);
       store_where(to_i(where_f), first[a], lanes_.cell[a], v);
     }
-    fetch_next_word(hn::And(where_f, hn::Lt(exit, length)), next, v);
+    prefetch_next_word(hn::And(where_f, hn::Lt(exit, length)), next, v);
     const F entered = hn::Div(tau, mu_maj);
     const MaskF collides = hn::AndNot(ends, hn::Lt(entered, run));
     store_where(where_f, tau, lanes_.tau, v);
@@ -259,7 +268,7 @@ class LaneTracker {
     for (int a = 0; a < 3; ++a) store_where(fetches, base[a], lanes_.fetched[a], v);
     std::uint8_t bytes[8] = {};
     hn::StoreMaskBits(kI, fetches, bytes);
-    VoxelPairs<Voxel> pairs(lanes_, v);
+    VoxelPairs<Voxel, Lanes::kCount> pairs(lanes_.pairs, v);
     const auto* voxels = static_cast<const Voxel*>(grid_.voxels);
     const std::int64_t next_j = grid_.size[1] > 1 ? grid_.stride_j : 0,
                        next_k = grid_.size[2] > 1 ? grid_.stride_k : 0;
@@ -270,38 +279,13 @@ class LaneTracker {
       pairs.fetch(lane, voxels + i[lane] + j[lane] * grid_.stride_j + k[lane] * grid_.stride_k, next_j,
                   next_k);
     }
-    F row[4];
-    for (int r = 0; r < 4; ++r) {
-      F lower, upper;
-      pairs.get(kF, r, lower, upper);
-      row[r] = hn::Add(lower, hn::Mul(fraction[0], hn::Sub(upper, lower)));
-    }
-    const F v0 = hn::Add(row[0], hn::Mul(fraction[1], hn::Sub(row[1], row[0])));
-    const F v1 = hn::Add(row[2], hn::Mul(fraction[1], hn::Sub(row[3], row[2])));
-    return hn::Add(v0, hn::Mul(fraction[2], hn::Sub(v1, v0)));
+    return pairs.interpolate(kF, fraction);
   }
 
   /// classify_mu_t.
   F extinction(MaskF where, F value) const {
-    const F at = hn::Mul(hn::Sub(value, hn::Set(kF, transfer_.bucket_origin)),
-                         hn::Set(kF, transfer_.buckets_per_unit));
-    const F last = hn::Set(kF, static_cast<float>(transfer_.bucket_count - 1));
-    const F inside = hn::IfThenElseZero(hn::Gt(at, hn::Zero(kF)), at);  // 0 for NaN
-    const I bucket = hn::ConvertTo(kI, hn::Min(inside, last));
-    const I found = hn::GatherIndex(kI, transfer_.bucket_piece, bucket);
-    const F split = hn::GatherIndex(kF, transfer_.bucket_split, bucket);
-    const I one = hn::Set(kI, 1);
-    const auto crowded = hn::Lt(found, hn::Zero(kI));
-    I piece = hn::IfThenElse(crowded, hn::Not(found), found);
-    piece = hn::Add(piece, hn::IfThenElseZero(to_i(hn::Ge(value, split)), one));
+    const I word = hn::ShiftLeft<2>(vector_find_piece(kF, transfer_, to_i(where), value));
     const auto* table = &transfer_.extinction->start;
-    auto unsure = hn::And(to_i(where), crowded);
-    while (!hn::AllFalse(kI, unsure)) {
-      const F next = hn::GatherIndex(kF, table + 4, hn::ShiftLeft<2>(piece));
-      unsure = hn::And(unsure, to_i(hn::Ge(value, next)));
-      piece = hn::Add(piece, hn::IfThenElseZero(unsure, one));
-    }
-    const I word = hn::ShiftLeft<2>(piece);
     const F anchor = hn::GatherIndex(kF, table + 1, word), mu_0 = hn::GatherIndex(kF, table + 2, word);
     const F slope = hn::GatherIndex(kF, table + 3, word);
     const F mu_t = hn::Add(mu_0, hn::Mul(slope, hn::Sub(value, anchor)));

@@ -2,6 +2,7 @@
 #include <cstdint>
 
 #include "base/vec.h"
+#include "sampling/elementary.h"
 
 namespace voxlume {
 
@@ -65,7 +66,7 @@ inline float classify_mu_t(const TransferView& tf, float value) noexcept {
 
 /// Opacity over the reference length, in [0,1): what the surface share is modulated by.
 inline float opacity_of(const TransferView& tf, float mu_t) noexcept {
-  return -std::expm1(-mu_t * tf.reference_length_mm);
+  return one_minus_exp(mu_t * tf.reference_length_mm);
 }
 
 /// All coefficients at a data value.

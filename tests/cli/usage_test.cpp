@@ -144,9 +144,7 @@ TEST_F(CliRefuses, Values) {
 
 TEST_F(CliRefuses, WhatIsNotBuiltYetByName) {
   expect_refused({
-      flags({"--denoise", "wrls"}, "error: --denoise wrls is not built yet; available: none\n"),
-      flags({"--denoise", "decoupled"}, "--denoise decoupled is not built yet; available: none"),
-      flags({"--denoise", "svgf"}, "--denoise svgf is not built yet; available: none"),
+      flags({"--denoise", "blur"}, "found \"blur\", expected one of none, decoupled, svgf"),
       flags({"--important", "100:200"}, "--important is not built yet"),
       flags({"--visibility", "1,1,1,1"}, "--visibility is not built yet"),
       flags({"--visibility-lights", "first"}, "--visibility-lights first is not built yet; available: off"),

@@ -52,7 +52,7 @@ Traced trace(const SceneDescription& description, int spp) {
   return out;
 }
 
-Vec3f composed(const RadianceParts& p) { return (p.fx_diffuse + p.fx_specular) * p.fl + p.later; }
+Vec3f composed(const RadianceParts& p) { return p.direct_diffuse + p.direct_specular + p.later; }
 
 struct PartsMode {
   const char* name;
@@ -99,31 +99,50 @@ TEST(Parts, MakeUpTheRadianceOfEverySample) {
   }
 }
 
-TEST(Parts, FxIsWhatScattersAndFlWhatArrives) {
+TEST(Parts, FxIsTheShadingWithoutShadows) {
   SceneDescription scene = lit_scene(1);
   scene.material.shading = Shading::kPhase;
+  const Traced all_around = trace(scene, 4);
+  scene.environment->intensity = 0;
   const Traced phase = trace(scene, 4);
+  double with_environment = 0, without = 0;
   for (std::size_t i = 0; i < phase.samples.size(); ++i) {
     if (phase.samples[i].alpha == 0) continue;
-    const Vec3f expected = phase.samples[i].albedo * 0.25f;  // pi / (4 pi)
+    const Vec3f expected = phase.samples[i].albedo * 0.25f;  // pi / (4 pi) of a light in one direction
     for (int c = 0; c < 3; ++c) ASSERT_NEAR(phase.parts[i].fx_diffuse[c], expected[c], 1e-4f * expected[c]);
     ASSERT_EQ(phase.parts[i].fx_specular, Vec3f(0));
+    without += phase.parts[i].fx_diffuse.x;
+    with_environment += all_around.parts[i].fx_diffuse.x;
   }
+  EXPECT_GT(with_environment, 1.2 * without) << "all of the light that comes from all around is scattered";
 
   scene.material.shading = Shading::kBrdf;
   scene.material.specular = 0;
   const Traced lambert = trace(scene, 4);
-  double greatest = 0;
+  const Vec3f to_light = normalize(Vec3f(20, -60, 30));  // nearly, from everywhere in the ball
   for (std::size_t i = 0; i < lambert.samples.size(); ++i) {
-    if (lambert.samples[i].alpha == 0 || lambert.samples[i].normal == Vec3f(0)) continue;
-    for (int c = 0; c < 3; ++c) {
-      const double share = lambert.parts[i].fx_diffuse[c] / lambert.samples[i].albedo[c];
-      ASSERT_LE(share, 1.0001) << "the cosine of the direction looked at";
-      ASSERT_GE(share, 0);
-      greatest = std::max(greatest, share);
-    }
+    const PixelSample& s = lambert.samples[i];
+    if (s.alpha == 0 || s.normal == Vec3f(0)) continue;
+    const float share = lambert.parts[i].fx_diffuse.x / s.albedo.x;
+    const float cosine = dot(s.normal, to_light), to_eye = -s.normal.y;
+    ASSERT_NEAR(share, cosine * to_eye > 0 ? std::abs(cosine) : 0.0f, 0.3f) << "as the light is seen";
   }
-  EXPECT_GT(greatest, 0.9);
+}
+
+/// What shadows take is in the direct light alone: fx is the same in front of the light and behind the ball.
+TEST(Parts, DirectLightIsShadowedAndFxIsNot) {
+  SceneDescription scene = lit_scene(1);
+  scene.material.shading = Shading::kPhase;
+  scene.environment->intensity = 0;
+  const auto ratio_of = [](const Traced& traced) {
+    double direct = 0, fx = 0;
+    for (const RadianceParts& p : traced.parts) direct += p.direct_diffuse.x, fx += p.fx_diffuse.x;
+    return direct / fx;
+  };
+  const double lit = ratio_of(trace(scene, 16));
+  (*scene.lights)[0].position_mm = Double3{20, 60, 30};  // behind what the camera sees
+  const double behind = ratio_of(trace(scene, 16));
+  EXPECT_LT(behind, 0.3 * lit);
 }
 
 /// In the ball's middle everything is dense, and nothing is where it fades into air.

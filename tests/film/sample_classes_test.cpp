@@ -15,10 +15,10 @@ PixelSample hit(float radiance, float depth_mm) {
   return sample;
 }
 
-RadianceParts parts(float fx, float fl, bool dense = false) {
+RadianceParts parts(float fx, float direct, bool dense = false) {
   RadianceParts p;
   p.fx_diffuse = Vec3f(fx);
-  p.fl = Vec3f(fl);
+  p.direct_diffuse = Vec3f(direct);
   p.later = Vec3f(0.25f);
   p.dense = dense;
   return p;
@@ -68,9 +68,9 @@ TEST_F(Classes, KeepSumsOfEverything) {
   EXPECT_EQ(pixel().radiance, Vec3d(6));
   EXPECT_NEAR(pixel().luminance_squared, 14, 1e-5);
   EXPECT_EQ(pixel().classes[0].count, 2u);
-  EXPECT_FLOAT_EQ(pixel().classes[0].fl.y, 6);
+  EXPECT_FLOAT_EQ(pixel().classes[0].direct_diffuse.y, 6);
   EXPECT_FLOAT_EQ(pixel().classes[0].later.z, 0.5f);
-  EXPECT_FLOAT_EQ(pixel().classes[1].fl.y, 5);
+  EXPECT_FLOAT_EQ(pixel().classes[1].direct_diffuse.y, 5);
   EXPECT_EQ(pixel().dense_depth_mm, 30) << "the least that is dense";
   EXPECT_EQ(pixel().median_depth_mm, 30);
 }
@@ -91,6 +91,21 @@ TEST_F(Classes, OfSamplesAddedTogetherDoNotDependOnTheirNumber) {
   add_fx(fx);
   EXPECT_EQ(pixel().classes[0].count, 50u);
   EXPECT_EQ(pixel().classes[1].count, 50u);
+}
+
+TEST_F(Classes, KeepWhatTheFirstSampleOfThePixelMet) {
+  film_.add(0, 0, hit(2, 30));
+  film_.add(0, 0, hit(5, 20));
+  EXPECT_FLOAT_EQ(pixel().first_luminance, 2);
+  EXPECT_EQ(pixel().first_depth_mm, 30);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (const PixelSample& nothing : {PixelSample{.radiance = Vec3f(3)}, hit(nan, 30), hit(2, nan)}) {
+    Film film(1, 1, {.classes = true});
+    film.add(0, 0, nothing);
+    film.add(0, 0, hit(5, 20));
+    EXPECT_EQ(film.classes(0, 0).first_luminance, 0);
+    EXPECT_EQ(film.classes(0, 0).first_depth_mm, 0);
+  }
 }
 
 }  // namespace

@@ -128,7 +128,7 @@ TEST(Environment, DensityFollowsTheRadiance) {
   EnvironmentImage image = test::sky();
   for (std::size_t i = 0; i < image.rgb.size(); i += 3) image.rgb[i + 1] = image.rgb[i + 2] = image.rgb[i];
   const Lights lights = compile({}, {}, &image);
-  const double expected = 4 * std::numbers::pi * luminance(Vec3d(lights.mean_environment_radiance()));
+  const double expected = 4 * std::numbers::pi * luminance(Vec3d(lights.view().environment_mean));
   Rng rng(4, 0, 0, 0);
   for (int i = 0; i < 10000; ++i) {
     const float u0 = rng.next(), u1 = rng.next();
@@ -143,8 +143,8 @@ TEST(Environment, ExcessIsWhatIsSampled) {
   const Lights lights = compile({}, {}, &image, EnvironmentSamples::kExcess);
   expect_samples_fit(lights, Vec3f(0, 0, 1), 0.2, 4);
   const Lights whole = compile({}, {}, &image);
-  EXPECT_EQ(lights.mean_environment_radiance(), whole.mean_environment_radiance());
-  const double mean = luminance(Vec3d(lights.mean_environment_radiance()));
+  EXPECT_EQ(lights.view().environment_mean, whole.view().environment_mean);
+  const double mean = luminance(Vec3d(lights.view().environment_mean));
   Rng rng(6, 0, 0, 0);
   double ratio = 0;
   int dim = 0;
@@ -205,10 +205,10 @@ TEST(Environment, MeanRadiance) {
   EnvironmentDescription d;
   d.color.linear = {0.5f, 1.0f, 0.0f};
   d.intensity = 2;
-  EXPECT_EQ(compile({}, d).mean_environment_radiance(), Vec3f(1, 2, 0));
+  EXPECT_EQ(compile({}, d).view().environment_mean, Vec3f(1, 2, 0));
   EnvironmentImage image{4, 2, std::vector<float>(24, 0.0f)};
   image.rgb[0] = 8.0f;  // one texel of eight equal ones
-  EXPECT_NEAR(compile({}, {}, &image).mean_environment_radiance().x, 1.0f, 1e-6f);
+  EXPECT_NEAR(compile({}, {}, &image).view().environment_mean.x, 1.0f, 1e-6f);
 }
 
 TEST(Environment, BlackIsNone) {

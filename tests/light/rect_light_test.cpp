@@ -100,7 +100,7 @@ TEST(RectLight, PartsGetTheirSolidAngle) {
     const Lights lights = light_of(v);
     const RectFromPoint r = rect_from_point(lights.view().lights[0], v.p);
     const float total = rect_solid_angle(r);
-    if (rect_sampling(total) != RectSampling::kSolidAngle) continue;
+    if (rect_technique(r).sampling == RectSampling::kHemisphere || total < 1e-4f) continue;
     std::vector<double> observed(kSide * kSide), expected(observed.size());
     const double dx = (double{r.x1} - r.x0) / kSide, dy = (double{r.y1} - r.y0) / kSide;
     double sum = 0;

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "denoise/denoiser.h"
 #include "grid/phantom.h"
 #include "image_io/image_io.h"
 #include "integrator/path_tracer.h"
@@ -144,19 +145,19 @@ TEST(Compile, RefusesExtinctionThatNoRayGetsThrough) {
   }
 }
 
-TEST(Compile, RefusesWhatIsNotBuilt) {
-  const Volume phantom = make_head_phantom();
-  const VolumeStatistics statistics = compute_statistics(make_grid_view(phantom));
-  for (const auto set : {+[](RenderDescription& r) { r.denoise = "wrls"; }}) {
-    SceneDescription scene = resolve({}, phantom, statistics);
-    set(scene.render);
-    try {
-      const CompiledScene compiled(scene, phantom, statistics);
-      FAIL();
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ErrorCode::kUnsupported);
-      EXPECT_THAT(error.what(), HasSubstr("not built yet"));
-    }
+TEST(SceneFields, EveryDenoiserCanBeNamed) {
+  SceneDescription scene;
+  std::string known = "none";
+  for (const DenoiserKind& kind : denoiser_kinds()) {
+    set_scene_field(scene, "/render/denoise", std::string(kind.name), "");
+    EXPECT_EQ(scene.render.denoise, kind.name);
+    known += ", " + std::string(kind.name);
+  }
+  try {
+    set_scene_field(scene, "/render/denoise", "blur", "");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("expected one of " + known));
   }
 }
 

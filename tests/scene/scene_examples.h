@@ -50,6 +50,7 @@ inline SceneDescription full_scene() {
   s.render.free_flight = FreeFlightSampling::kDecomposition;
   s.render.shadow_roulette = 0.25;
   s.render.simd = "scalar";
+  s.render.denoise = "svgf";
   s.render.light_sampling = "light";
   const auto dim = s.transfer.points, bright = std::vector<TransferPoint>{dim.begin(), dim.begin() + 1};
   s.animation = AnimationDescription{

@@ -84,7 +84,7 @@ TEST(FullScene, HasNoDefaults) {
   expect_no_defaults(s.camera);
   expect_no_defaults(*s.clip);
   expect_no_defaults(s.image);
-  expect_no_defaults(s.render, {"denoise"});
+  expect_no_defaults(s.render);
   expect_no_defaults(*s.animation);
   expect_no_defaults(*s.animation->turntable);
   expect_no_defaults(s.animation->tracks.front());
@@ -182,7 +182,7 @@ TEST(SetSceneField, RefusesWithTheCallersName) {
   refused("/image/ssp", "1", "unknown field \"ssp\"; did you mean \"spp\"?");
   refused("/image/spp/0", "1", "unknown field \"0\"; a plain value has no fields");
   refused("image", "1", "expected an address");
-  refused("/render/denoise", "svgf", "svgf is not built yet; available: none");
+  refused("/render/denoise", "blur", "expected one of none, decoupled, svgf");
 }
 
 TEST(ValidateScene, ChecksDescriptionsMadeByPrograms) {

@@ -1,0 +1,89 @@
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include "integrator/scatter_point.h"
+#include "integrator/scene_view.h"
+#include "light/sample_light.h"
+#include "sampling/sobol.h"
+
+namespace voxlume {
+
+/// A real collision, and numbers in [0, 1) for what is drawn there.
+struct ScatteringQuery {
+  Vec3f p_index;
+  float value;                    ///< data at p_index
+  Vec3f wo;                       ///< unit, to where the path came from
+  bool samples_light, turns;      ///< whether a light and a direction are to be drawn
+  float u_surface = 0;            ///< with Exposure Render's shading: surface or medium
+  float u_pick = 0, u_light = 0;  ///< which light: of all light samples of the scattering, and of the first
+  UnitPair light{0, 0};           ///< and where on it
+  float u_lobe = 0;               ///< which part of the matter scatters
+  UnitPair direction{0, 0};
+};
+
+/// What is found and drawn at a collision. Light and direction are of no use unless they were asked for.
+struct Scattering {
+  MatterPoint matter;
+  float surface_share;  ///< before Exposure Render's shading decides
+  ScatterChoice choice;
+  LightSample light;
+  ScatterValue toward_light;
+  TrackRay light_ray;
+  ScatterSample turn;
+  TrackRay turn_ray;
+  bool turn_meets_rect;  ///< whether any rect light shines against it
+};
+
+/// The ray from a point of the volume, given in both spaces, up to t_max [mm].
+inline TrackRay ray_from(const SceneView& scene, Vec3f p_index, Vec3f p_world, Vec3f direction_world,
+                         float t_max) noexcept {
+  const IndexRay ray{p_index, scene.medium.grid.index_from_world.vector(direction_world)};
+  return visible_part(scene, ray, p_world, direction_world, t_max, !scene.clip_blocks_light);
+}
+
+/// Finds what is at a collision and draws what the query asks for, from its numbers.
+Scattering scatter_at(const SceneView& scene, const ScatteringQuery& query) noexcept;
+
+/// Many scatterings, a column of every array each.
+struct alignas(64) ScatteringBatch {
+  static constexpr int kCount = 16;
+  template <class T>
+  using Column = std::array<T, kCount>;
+  using Column3 = Column<float>[3];
+
+  // Given; what a query does not draw need not be put.
+  int count = 0;
+  bool samples_light = false, turns = false;  ///< whether any of them does
+  alignas(64) Column3 p_index{}, wo{};
+  alignas(64) Column<float> value{}, u_surface{}, u_light{}, light0{}, light1{}, u_lobe{}, direction0{},
+      direction1{};
+  // Filled.
+  alignas(64) Column3 emission{}, p_world{}, normal{}, albedo{};
+  alignas(64) Column<float> p_brdf{}, surface_share{};
+  alignas(64) Column<float> specular{}, surface{}, any{};
+  alignas(64) Column3 light_wi{}, light_radiance{}, light_value{};
+  alignas(64) Column<float> light_mm{}, light_pdf{}, light_value_pdf{};
+  alignas(64) Column<std::uint32_t> light_delta{};  ///< 0 or not
+  alignas(64) Column3 turn_wi{}, turn_value{};
+  alignas(64) Column<float> turn_pdf{};
+  alignas(64) Column<std::uint32_t> turn_meets_rect{};  ///< 0 or not
+  alignas(64) Column3 light_direction_index{}, turn_direction_index{};
+  alignas(64) Column<float> light_near{}, light_far{}, turn_near{}, turn_far{};
+
+  void clear() noexcept {
+    count = 0;
+    samples_light = turns = false;
+  }
+  /// Puts a query behind the others.
+  void add(const ScatteringQuery& query) noexcept;
+  Scattering at(const SceneView& scene, int i) const noexcept;
+};
+
+/// Fills a batch with what scatter_at computes, to the last bit.
+using FillScatterings = void (*)(const SceneView& scene, ScatteringBatch& batch);
+
+/// The filler for an instruction set that the machine has; nullptr for scalar code.
+FillScatterings vector_scatterings(SimdTarget target);
+
+}  // namespace voxlume
