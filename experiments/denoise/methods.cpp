@@ -98,13 +98,13 @@ void Method::forget() {
   if (denoiser_) denoiser_->forget();
 }
 
-std::vector<Method> every_method(bool all, bool gradients) {
+std::vector<Method> every_method(bool all) {
   std::vector<Method> methods;
   methods.emplace_back("noisy", nullptr, nullptr, false);
   for (const DenoiserKind& kind : denoiser_kinds()) {
     const bool alone = kind.name == "atrous" || kind.name == "bilateral" || kind.name == "oidn";
     if (!all && kind.name.ends_with("-no-feature")) continue;
-    if ((kind.needs.gradients && !gradients) || !is_available(kind)) continue;
+    if (!is_available(kind)) continue;
     methods.emplace_back(std::string(kind.name), &kind, nullptr, !alone);
   }
   return methods;

@@ -39,7 +39,7 @@ class Method {
 };
 
 /// The noisy picture and every denoiser that there is. `all` includes the ablations of wrls.
-std::vector<Method> every_method(bool all, bool gradients);
+std::vector<Method> every_method(bool all);
 
 /// The decoupled denoiser without one of its parts each: "one-class" (all samples of a pixel are one class),
 /// "no-decoupling" (all light is `later`).

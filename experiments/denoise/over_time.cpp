@@ -31,11 +31,12 @@ struct Run {
   int spp;
   std::vector<Method> methods;
   DenoiseFrame frame;
+  GradientSampler gradients;
   std::map<std::string, std::array<double, 2>> sums;  ///< PSNR and FLIP over compared frames
 };
 
 std::vector<Method> methods_for(const Options& o, const Animation& animation, bool is_medium) {
-  std::vector<Method> methods = every_method(o.all_methods, false);
+  std::vector<Method> methods = every_method(o.all_methods);
   methods.push_back(still_method());
   const bool ablates = !is_medium && (animation.name == "orbit" || animation.name == "transfer");
   if (ablates) {
@@ -97,6 +98,7 @@ void look(const Options& o, const Sequence& sequence, const Moment& moment, Run&
 
 void forget(std::vector<Run>& runs) {
   for (Run& run : runs) {
+    run.gradients.forget();
     for (Method& method : run.methods) method.forget();
   }
 }
@@ -119,7 +121,7 @@ void run_sequence(const Options& o, const Dataset& data, const Animation& animat
               "data,animation,spp,frame,method,compared,rmse,psnr_db,psnr_hdr_db,ssim,flip,ghost,"
               "denoise_ms,render_ms");
   std::vector<Run> runs;
-  for (const int spp : o.spp) runs.push_back({spp, methods_for(o, animation, is_medium), {}, {}});
+  for (const int spp : o.spp) runs.push_back({spp, methods_for(o, animation, is_medium), {}, {}, {}});
   const Plan plan{o, frames, animation.name == "transfer" && frames > kAbruptFrame};
   Image before;
   int compared = 0, last = -1;
@@ -137,7 +139,7 @@ void run_sequence(const Options& o, const Dataset& data, const Animation& animat
       if (plan.shows_ghosts(f) && f >= kAbruptFrame) moment.before = &before;
     }
     for (Run& run : runs) {
-      const double ms = sequence.render(run.spp, static_cast<std::uint32_t>(f), run.frame);
+      const double ms = sequence.render(run.spp, static_cast<std::uint32_t>(f), run.gradients, run.frame);
       look(o, sequence, moment, run, ms, table);
     }
     if (moment.is_compared) ++compared;

@@ -140,11 +140,8 @@ void choose(const std::string& name, SceneDescription& scene) {
   }
 }
 
-Film render_film(const SceneView& scene, int spp, std::uint32_t seed, bool classes) {
-  SceneView view = scene;
-  view.frame = seed;
-  view.keeps_parts = classes;
-  Film film(view.width, view.height, {.normal = classes, .albedo = classes, .classes = classes});
+Film render_film(const SceneView& view, int spp, FilmLayers layers) {
+  Film film(view.width, view.height, layers);
   const std::vector<TileRect> tiles = make_tiles(view.width, view.height, 16);
   parallel_for(static_cast<std::int64_t>(tiles.size()), 1, [&](std::int64_t i) {
     TraceCounters counters;
@@ -214,16 +211,22 @@ void Sequence::go_to(int frame) {
   }
 }
 
-double Sequence::render(int spp, std::uint32_t seed, DenoiseFrame& out) const {
+double Sequence::render(int spp, std::uint32_t seed, GradientSampler& gradients, DenoiseFrame& out) const {
+  SceneView scene = view();
+  scene.frame = seed;
+  scene.keeps_parts = true;
   const auto begin = std::chrono::steady_clock::now();
-  const Film film = render_film(view(), spp, seed, true);
+  const Film film = render_film(scene, spp, {.normal = true, .albedo = true, .classes = true});
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
-  fill_denoise_frame(film, view(), static_cast<float>(data_.size_mm), out);
+  fill_denoise_frame(film, scene, static_cast<float>(data_.size_mm), out);
+  gradients.fill(scene, film, out);
   return took.count();
 }
 
 Image Sequence::picture(int spp, std::uint32_t seed) const {
-  return image_from_film(render_film(view(), spp, seed, false), {}, false);
+  SceneView scene = view();
+  scene.frame = seed;
+  return image_from_film(render_film(scene, spp, {}), {}, false);
 }
 
 }  // namespace voxlume::study

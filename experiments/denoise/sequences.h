@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "denoise/frame.h"
+#include "render/gradient_samples.h"
 #include "render/render_loop.h"
 #include "scene/compile.h"
 #include "voxlume/image.h"
@@ -54,7 +55,8 @@ class Sequence {
   void go_to(int frame);
   /// Renders the moment with `spp` samples a pixel as denoisers see it, and the time it took [ms]. Pictures
   /// of one `seed` have the same noise.
-  double render(int spp, std::uint32_t seed, DenoiseFrame& out) const;
+  /// `gradients` has seen the frame before, if there was one, and sees this one.
+  double render(int spp, std::uint32_t seed, GradientSampler& gradients, DenoiseFrame& out) const;
   /// The moment's plain picture.
   Image picture(int spp, std::uint32_t seed) const;
 

@@ -22,19 +22,20 @@ struct Subject {
 
 std::vector<Subject> subjects(const Options& o) {
   std::vector<Subject> all;
-  for (Method& method : every_method(o.all_methods, false)) {
+  for (Method& method : every_method(o.all_methods)) {
     // A network needs most of a second a frame and has no history.
     if (method.name() != "oidn") all.push_back({std::move(method), TemporalVariance(), ConvergenceTime()});
   }
   return all;
 }
 
-/// Frames just before a moment.
-std::vector<DenoiseFrame> render_history(const Options& o, Sequence& sequence, int moment, int spp) {
+/// Frames just before a moment, the last of which `gradients` has seen.
+std::vector<DenoiseFrame> render_history(const Options& o, Sequence& sequence, int moment, int spp,
+                                         GradientSampler& gradients) {
   std::vector<DenoiseFrame> frames;
   for (int f = std::max(moment - o.history, 0); f < moment; ++f) {
     sequence.go_to(f);
-    sequence.render(spp, static_cast<std::uint32_t>(f), frames.emplace_back());
+    sequence.render(spp, static_cast<std::uint32_t>(f), gradients, frames.emplace_back());
   }
   return frames;
 }
@@ -46,11 +47,15 @@ void replay(Method& method, const std::vector<DenoiseFrame>& history) {
   for (const DenoiseFrame& frame : history) method.denoise(frame);
 }
 
+/// `gradients` has seen the history; in the end, the last picture too.
 void measure_variance(const Options& o, const Sequence& sequence, int spp,
-                      const std::vector<DenoiseFrame>& history, std::vector<Subject>& all) {
+                      const std::vector<DenoiseFrame>& history, GradientSampler& gradients,
+                      std::vector<Subject>& all) {
+  const GradientSampler before = gradients;
   DenoiseFrame frame;
   for (int i = 0; i < o.seeds; ++i) {
-    sequence.render(spp, kMomentSeed + static_cast<std::uint32_t>(i), frame);
+    gradients = before;
+    sequence.render(spp, kMomentSeed + static_cast<std::uint32_t>(i), gradients, frame);
     for (Subject& s : all) {
       replay(s.method, history);
       s.method.denoise(frame);
@@ -62,11 +67,13 @@ void measure_variance(const Options& o, const Sequence& sequence, int spp,
 }
 
 /// Goes on from the last picture of measure_variance. The mean time to render a frame [ms].
-double measure_convergence(const Options& o, const Sequence& sequence, int spp, std::vector<Subject>& all) {
+double measure_convergence(const Options& o, const Sequence& sequence, int spp, GradientSampler& gradients,
+                           std::vector<Subject>& all) {
   DenoiseFrame frame;
   double sum_ms = 0;
   for (int i = 0; i < o.rest; ++i) {
-    const double render_ms = sequence.render(spp, kRestSeed + static_cast<std::uint32_t>(i), frame);
+    const double render_ms =
+        sequence.render(spp, kRestSeed + static_cast<std::uint32_t>(i), gradients, frame);
     sum_ms += render_ms;
     for (Subject& s : all) {
       s.denoise_ms = s.method.denoise(frame);
@@ -95,10 +102,11 @@ void measure(const Options& o, const Dataset& data, const Animation& animation) 
   for (const int moment : o.moments) {
     for (const int spp : o.spp) {
       std::vector<Subject> all = subjects(o);
-      const std::vector<DenoiseFrame> history = render_history(o, sequence, moment, spp);
+      GradientSampler gradients;
+      const std::vector<DenoiseFrame> history = render_history(o, sequence, moment, spp, gradients);
       sequence.go_to(moment);
-      measure_variance(o, sequence, spp, history, all);
-      const double render_ms = measure_convergence(o, sequence, spp, all);
+      measure_variance(o, sequence, spp, history, gradients, all);
+      const double render_ms = measure_convergence(o, sequence, spp, gradients, all);
       for (const Subject& s : all) {
         const std::string where =
             fmt::format("{},{},{},{},{},", data.name, animation.name, spp, moment, s.method.name());

@@ -23,12 +23,13 @@ void sweep(const Options& o, const std::string& name) {
   const Reference exact = reference(o, sequence, end);
   DenoiseFrame frame;
   for (const int spp : o.sweep) {
-    std::vector<Method> methods = every_method(o.all_methods, false);
+    std::vector<Method> methods = every_method(o.all_methods);
     std::vector<double> denoise_ms(methods.size());
     std::vector<double> render_ms;
+    GradientSampler gradients;
     for (int f = std::max(end - kSweepFrames + 1, 0); f <= end; ++f) {
       sequence.go_to(f);
-      render_ms.push_back(sequence.render(spp, static_cast<std::uint32_t>(f), frame));
+      render_ms.push_back(sequence.render(spp, static_cast<std::uint32_t>(f), gradients, frame));
       for (std::size_t i = 0; i < methods.size(); ++i) {
         if (methods[i].has_history() || f == end) denoise_ms[i] = methods[i].denoise(frame);
       }
@@ -80,12 +81,13 @@ void stand_still_study(const Options& o) {
   const Reference exact = reference(o, sequence, 0);
   write_display(o, exact.image, "still-reference");
   const int spp = o.spp.front();
-  std::vector<Method> methods = every_method(o.all_methods, false);
+  std::vector<Method> methods = every_method(o.all_methods);
   std::erase_if(methods, [](const Method& m) { return m.name() == "oidn"; });
   std::vector<TemporalVariance> variances(methods.size());
   DenoiseFrame frame;
+  GradientSampler gradients;
   for (int f = 0; f < kStillFrames; ++f) {
-    sequence.render(spp, static_cast<std::uint32_t>(f), frame);
+    sequence.render(spp, static_cast<std::uint32_t>(f), gradients, frame);
     for (std::size_t i = 0; i < methods.size(); ++i) {
       methods[i].denoise(frame);
       if (f >= kStillWarmUp) variances[i].add(methods[i].picture(frame));
