@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include "metrics/flip.h"
@@ -32,7 +33,7 @@ struct Run {
   std::vector<Method> methods;
   DenoiseFrame frame;
   GradientSampler gradients;
-  std::map<std::string, std::array<double, 2>> sums;  ///< PSNR and FLIP over compared frames
+  std::map<std::string, std::array<double, 3>> sums;  ///< PSNR, FLIP and number of compared frames
 };
 
 std::vector<Method> methods_for(const Options& o, const Animation& animation, bool is_medium) {
@@ -89,7 +90,10 @@ void look(const Options& o, const Sequence& sequence, const Moment& moment, Run&
                           method.name(), moment.is_compared ? 1 : 0, rmse(picture, exact), db,
                           psnr_hdr(picture, exact).value_or(99), ssim(picture, exact).value_or(1), flip_mean,
                           ghost, ms, render_ms));
-    if (moment.is_compared) run.sums[method.name()][0] += db, run.sums[method.name()][1] += flip_mean;
+    if (moment.is_compared) {
+      std::array<double, 3>& sums = run.sums[method.name()];
+      sums[0] += db, sums[1] += flip_mean, sums[2] += 1;
+    }
     if (moment.is_shown)
       write_display(o, picture,
                     fmt::format("{}-{:03d}-{}spp-{}", sequence.name(), moment.frame, run.spp, method.name()));
@@ -150,7 +154,7 @@ void run_sequence(const Options& o, const Dataset& data, const Animation& animat
   for (const Run& run : runs) {
     for (const auto& [method, sums] : run.sums)
       fmt::print("{:28s} {:2d} spp {:24s} PSNR {:.2f} dB  FLIP {:.4f}\n", sequence.name(), run.spp, method,
-                 sums[0] / compared, sums[1] / compared);
+                 sums[0] / sums[2], sums[1] / sums[2]);
   }
   std::fflush(stdout);
   table.write();

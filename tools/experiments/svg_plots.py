@@ -33,7 +33,7 @@ class Axis:
         self.log, self.begin, self.end = log, begin, end
         if log:
             low, high = math.log10(low), math.log10(high)
-        room = pad * (high - low) or (0.5 if log else pad * abs(high) or 1)
+        room = pad * (high - low) if high > low else (0.5 if log else pad * abs(high) or 1)
         self.low, self.high = low - room, high + room
 
     def at(self, value):
