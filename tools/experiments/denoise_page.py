@@ -4,7 +4,6 @@
 denoise_page.py FOLDER; leaves FOLDER/index.html, FOLDER/summary.csv and FOLDER/summary.md.
 """
 import base64
-import csv
 import html
 import pathlib
 import sys
@@ -94,9 +93,8 @@ class Page:
 
 
 def over_time(page, study):
-    page.add("<h2>Over time</h2><p>Of every fourth frame. The grey band's end is the reference: the line "
-             "“reference” in PSNR is what the reference itself has to the truth, from its two halves.</p>".replace(
-                 "The grey band's end is the reference: t", "T"))
+    page.add("<h2>Over time</h2><p>Of the frames that were compared. In the tables above, “reference's own” is the PSNR that the reference itself has to "
+             "the truth, from how far its two halves are apart.</p>")
     main = [m for m in study.methods() if not m.startswith("decoupled-")]
     page.key(main)
     for data, animation in study.sequences():
@@ -181,11 +179,10 @@ def sweeps(page, study):
     made = []
     for data, rows in found.items():
         methods = list(dict.fromkeys(r["method"] for r in rows))
-        main = [m for m in methods if m != "oidn" or True]
         for column, title, unit in (("psnr_db", "PSNR", "dB"), ("frames_per_second", "frames a second", "1/s")):
-            curves = [(colour(m), m, [(int(r["spp"]), float(r[column])) for r in rows if r["method"] == m]) for m in main]
+            curves = [(colour(m), m, [(int(r["spp"]), float(r[column])) for r in rows if r["method"] == m]) for m in methods]
             made.append(plots.lines(f"{data}: {title}", unit, "samples a pixel", curves, log_x=True))
-    page.key(main)
+    page.key(methods)
     page.plots(made)
 
 

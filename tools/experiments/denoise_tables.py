@@ -222,7 +222,7 @@ a filter removes. RLS and wRLS, which average frames and hardly neighbours, win 
 <li><b>wRLS against RLS</b>: the weights of iglesias2020 protect from spikes, of which scenes with wide lights and two scatterings have few; among narrow bands wRLS is
 0.1 to 0.3 dB ahead at 1 and 2 spp. Elsewhere RLS is as good or better: a weight that is zero for dark samples costs a bias.</li>
 <li><b>SVGF</b> ranks higher than in both papers where only the camera moves: here it knows the noise of normals, alpha is clamped to what the frame has, and the
-background is no part of it, which is what the papers show it failing at. Where light moves it is last, as in the papers.</li>
+background is no part of it, which is what the papers show it failing at. Where light moves it has the largest FLIP, as in the papers.</li>
 <li><b>Fig. 7</b>: two classes are not free of visible error where matter is translucent: see “Classes”.</li>
 <li><b>Convergence</b> at 30 spp does not tell the methods apart: at this size every method's consecutive pictures differ by less than 0.01 at once.</li>
 </ul>"""
