@@ -18,6 +18,7 @@ PictureDenoiser::PictureDenoiser(const std::string& name)
 void PictureDenoiser::apply(const Film& film, const CompiledScene& scene, Image& image) {
   const auto size_mm = static_cast<float>(visible_sphere(scene.volume(), std::nullopt).radius_mm);
   fill_denoise_frame(film, scene.view(), size_mm, frame_);
+  if (kind_.needs.gradients) gradients_.fill(scene.view(), film, frame_);
   denoiser_->denoise(frame_, denoised_);
   const bool transparent = scene.view().background == BackgroundKind::kTransparent;
   image.rgba = compose_picture(frame_, denoised_, transparent).rgba;

@@ -3,6 +3,7 @@
 
 #include "denoise/denoiser.h"
 #include "film/film.h"
+#include "render/gradient_samples.h"
 #include "scene/compile.h"
 #include "voxlume/image.h"
 
@@ -31,6 +32,7 @@ class PictureDenoiser {
   std::unique_ptr<Denoiser> denoiser_;
   DenoiseFrame frame_;
   DenoisedFrame denoised_;
+  GradientSampler gradients_;
 };
 
 }  // namespace voxlume
