@@ -217,7 +217,7 @@ REMARKS = """<h3>Where the ranks differ from the papers', and why</h3><ul>
 mean, the variance on the head CT's orbit at 30 spp is 0.025 of the noisy pictures', SVGF's 0.027. But the pictures are 4.6 dB worse there, and 9 dB under the
 rotating light (FLIP four times as large), because the history lags. What voxlume adds against that costs steadiness: 0.095. Of that, the plain mean's part is 0.025, what is given back of
 a neighbourhood 0.011, and the rest is history that is not trusted.</li>
-<li><b>FLIP at 30 spp</b>: the noisy picture has nearly the least. FLIP looks from 67 pixels a degree, where the eye blurs noise of single pixels away but not what
+<li><b>FLIP at 30 spp</b>: the noisy picture is hardly worse than the best. FLIP looks from 67 pixels a degree, where the eye blurs noise of single pixels away but not what
 a filter removes. RLS and wRLS, which average frames and hardly neighbours, win where lighting rests; where it moves, they lag, and the decoupled method wins.</li>
 <li><b>wRLS against RLS</b>: the weights of iglesias2020 protect from spikes, of which scenes with wide lights and two scatterings have few; among narrow bands wRLS is
 0.1 to 0.3 dB ahead at 1 and 2 spp. Elsewhere RLS is as good or better: a weight that is zero for dark samples costs a bias.</li>
