@@ -32,13 +32,11 @@ namespace {
 constexpr float kDepthSigma = 0.4f;
 constexpr std::int64_t kRowsAtOnce = 8;
 
-void resize_planes(Planes3& planes, int width, int height) { planes = make_planes3(width, height); }
-
 void resize_history(DecoupledHistory& history, int width, int height) {
   for (SampleClass& c : history.classes) {
     c.count = Plane(width, height);
     for (Planes3* planes : {&c.fx_diffuse, &c.fx_specular, &c.fl_diffuse, &c.fl_specular, &c.later})
-      resize_planes(*planes, width, height);
+      *planes = make_planes3(width, height);
   }
   history.alpha = history.depth_mm = history.luminance = Plane(width, height);
 }
@@ -74,9 +72,8 @@ void DecoupledDenoiser::resize(int width, int height) {
   if (now_.alpha.width() == width && now_.alpha.height() == height) return;
   for (std::array<Planes3, 2>* both :
        {&stages_.fx_diffuse, &stages_.fx_specular, &stages_.fl_diffuse, &stages_.fl_specular, &stages_.later})
-    for (Planes3& planes : *both) resize_planes(planes, width, height);
-  resize_planes(stages_.matter, width, height);
-  resize_planes(stages_.residual, width, height);
+    for (Planes3& planes : *both) planes = make_planes3(width, height);
+  stages_.matter = stages_.residual = make_planes3(width, height);
   stages_.scattered = stages_.variance = stages_.error = Plane(width, height);
   resize_history(now_, width, height);
   resize_history(before_, width, height);

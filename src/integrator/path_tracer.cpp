@@ -13,9 +13,6 @@ namespace {
 /// Samples of a tile that are held back until they can be added in order.
 constexpr int kHeldSamples = 4096;
 
-/// As many of a pixel at least, where its samples are divided into classes by what they have in common.
-constexpr int kClassifiedTogether = 32;
-
 /// The pixels of a tile, row by row.
 std::pair<int, int> pixel_at(const TileRect& tile, int index) {
   const int width = tile.x1 - tile.x0;

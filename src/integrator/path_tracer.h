@@ -14,6 +14,10 @@ namespace voxlume {
 PixelSample trace_camera_sample(const SceneView& scene, int x, int y, std::uint32_t sample,
                                 TraceCounters& counters, RadianceParts* parts = nullptr) noexcept;
 
+/// As many samples of a pixel render_tile traces in one go at least, if it is given them, for a film that
+/// keeps classes: Film::add_classes divides them together.
+inline constexpr int kClassifiedTogether = 32;
+
 /// Samples [sample_begin, sample_end) of every pixel of `tile`, row by row, a pixel's samples together;
 /// `samples` has room for them, and so has `parts` unless it is empty; then the scene must keep parts. By the
 /// instruction set that scene.simd names; the results are those of trace_camera_sample with every one.

@@ -24,9 +24,6 @@ std::string anonymous_scene(SceneDescription scene) {
   return write_scene(scene);
 }
 
-/// Samples of a pixel that are divided into classes together, where a denoiser asks for them.
-constexpr int kClassifiedTogether = 32;
-
 bool is_transparent(const SceneDescription& scene) {
   return scene.background && scene.background->kind == BackgroundKind::kTransparent;
 }
