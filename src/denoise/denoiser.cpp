@@ -8,12 +8,15 @@
 #include "denoise/oidn.h"
 #include "denoise/svgf.h"
 #include "denoise/wrls.h"
+#include "denoise/xu2024.h"
 #include "voxlume/error.h"
 
 namespace voxlume {
 namespace {
 
 std::unique_ptr<Denoiser> make_decoupled() { return std::make_unique<DecoupledDenoiser>(); }
+
+std::unique_ptr<Denoiser> make_xu2024() { return std::make_unique<Xu2024Denoiser>(); }
 
 constexpr DenoiserNeeds kGuides{.normal = true, .albedo = true};
 
@@ -26,6 +29,11 @@ const std::vector<DenoiserKind>& denoiser_kinds() {
        {.normal = true, .albedo = true, .classes = true},
        true,
        make_decoupled},
+      {"xu2024",
+       "decoupled with the history of its paper",
+       {.normal = true, .albedo = true, .classes = true},
+       true,
+       make_xu2024},
       {"svgf", "SVGF (schied2017)", kGuides, true, make_svgf},
       {"asvgf", "A-SVGF (schied2018)", {.normal = true, .albedo = true, .gradients = true}, true, make_asvgf},
       {"atrous", "edge-avoiding a-trous wavelets", kGuides, false, make_atrous},

@@ -20,7 +20,8 @@ HWY_INLINE int window_size(int at, int size, int radius) {
 void sum_columns(const Plane& in, int y, Plane& out) {
   for_row(in.width(), [&](int x, std::size_t lanes) {
     F sum = load(in, x - LocalMean::kRadius, y);
-    for (int dx = 1 - LocalMean::kRadius; dx <= LocalMean::kRadius; ++dx) sum = hn::Add(sum, load(in, x + dx, y));
+    for (int dx = 1 - LocalMean::kRadius; dx <= LocalMean::kRadius; ++dx)
+      sum = hn::Add(sum, load(in, x + dx, y));
     store(sum, out, x, y, lanes);
   });
 }

@@ -39,6 +39,10 @@ HWY_INLINE F3 multiply(F3 a, F3 b) { return {hn::Mul(a.x, b.x), hn::Mul(a.y, b.y
 HWY_INLINE F3 sub(F3 a, F3 b) { return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)}; }
 HWY_INLINE F3 scale(F3 a, F s) { return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)}; }
 HWY_INLINE F dot(F3 a, F3 b) { return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z))); }
+HWY_INLINE F3 choose(hn::Mask<Floats> mask, F3 yes, F3 no) {
+  return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y),
+          hn::IfThenElse(mask, yes.z, no.z)};
+}
 /// Of linear Rec. 709.
 HWY_INLINE F luminance(F3 c) { return dot(c, set({0.2126f, 0.7152f, 0.0722f})); }
 

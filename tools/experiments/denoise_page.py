@@ -29,7 +29,7 @@ svg.plot{width:100%;height:auto;background:var(--card);border-radius:4px}
 .plot .grid{stroke:var(--rule);stroke-width:.6;fill:none}.line{fill:none;stroke:var(--c);stroke-width:1.5}
 .box{stroke:var(--c)}.box path{fill:none;stroke:var(--c);stroke-width:1.2}.box rect{fill:var(--c);fill-opacity:.3}.box .median{stroke-width:2.2}
 .key span{white-space:nowrap;margin-right:1rem;font-size:13px}.key i{display:inline-block;width:18px;height:3px;background:var(--c);vertical-align:middle;margin-right:5px}
-.noisy{--c:#8b9096}.decoupled{--c:#d1493f}.svgf{--c:#3f7fc4}.asvgf{--c:#2aa3a3}.wrls{--c:#3d9950}.rls{--c:#9fb53a}
+.noisy{--c:#8b9096}.decoupled{--c:#d1493f}.svgf{--c:#3f7fc4}.xu2024{--c:#b07cc6}.asvgf{--c:#2aa3a3}.wrls{--c:#3d9950}.rls{--c:#9fb53a}
 .atrous{--c:#8f62c4}.bilateral{--c:#c467ad}.oidn{--c:#d79a2b}.still{--c:#e58f87}.reference{--c:var(--dim)}
 """
 
@@ -149,7 +149,7 @@ def ghosts(page, study):
 
 def ablations(page, study):
     page.add("<h2>Ablations of the decoupled denoiser</h2>"
-             "<p>one-class: all samples of a pixel as one class. no-decoupling: all light in the part that is filtered like arriving light, "
+             "<p>xu2024: with the temporal filters of the paper (eqs. 12 to 14). one-class: all samples of a pixel as one class. no-decoupling: all light in the part that is filtered like arriving light, "
              "so that nothing of high detail guides it but depth, normal and albedo. no-history: every frame by itself.</p>")
     rows, header = study.ablations()
     page.add(table(header, rows))

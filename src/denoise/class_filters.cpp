@@ -1,32 +1,23 @@
-// The spatial filters of the decoupled denoiser, row by row; included once for every target.
-#if defined(VOXLUME_DENOISE_DECOUPLED_SPATIAL_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef VOXLUME_DENOISE_DECOUPLED_SPATIAL_INL_H_
-#undef VOXLUME_DENOISE_DECOUPLED_SPATIAL_INL_H_
-#else
-#define VOXLUME_DENOISE_DECOUPLED_SPATIAL_INL_H_
-#endif
+#include "base/vector_targets.h"
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "denoise/class_filters.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
 
 #include <cmath>
 #include <cstdlib>
 
-#include "denoise/decoupled.h"
+#include "denoise/class_filters.h"
 #include "denoise/guides-inl.h"
 #include "denoise/row-inl.h"
+#include "denoise/sample_class-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace voxlume {
 namespace HWY_NAMESPACE {
 
-/// sigma_c of xu2024 eq. 11 and sigma_e of eq. 12, in units of a white Lambert surface's fx.
-constexpr float kSigmaFx = 0.2f;
 /// B3 spline: 3/8, 1/4, 1/16 by distance.
 constexpr float kSpline[] = {3.0f / 8, 1.0f / 4, 1.0f / 16};
-
-/// The length of a vector to about 1e-3; 0 for zero.
-HWY_INLINE F rough_length(F3 v) {
-  const F square = dot(v, v);
-  return hn::Mul(square, hn::ApproximateReciprocalSqrt(hn::Max(square, hn::Set(kD, 1e-20f))));
-}
 
 /// -(|fx - fx'| / sigma + |d - d'| / sigma_d), of which a tap's weight is the exponential.
 HWY_INLINE F tap_exponent(F3 fx, F3 fx_there, F depth, F depth_there, F inverse_depth_sigma) {
@@ -34,14 +25,12 @@ HWY_INLINE F tap_exponent(F3 fx, F3 fx_there, F depth, F depth_there, F inverse_
   return hn::NegMulAdd(hn::AbsDiff(depth, depth_there), inverse_depth_sigma, colour);
 }
 
-HWY_INLINE bool none(F count) { return hn::AllFalse(kD, hn::Gt(count, hn::Zero(kD))); }
-
 HWY_INLINE void clear(Planes3& planes, int x, int y, std::size_t lanes) {
   store(zero3(), planes, x, y, lanes);
 }
 
 /// Spatial filter of fx (xu2024 eq. 11) over all classes of 3 x 3 pixels. A class counts by its samples.
-void filter_fx_row(const DenoiseFrame& frame, int y, DecoupledStages& stages) {
+void filter_fx_row(const DenoiseFrame& frame, int y, ClassStages& stages) {
   const std::array<SampleClass, 2>& classes = *frame.classes;
   const F inverse_sigma = hn::Set(kD, stages.inverse_depth_sigma);
   for_row(frame.width, [&](int x, std::size_t lanes) {
@@ -133,7 +122,7 @@ HWY_INLINE Light mean_light(const LightSums& sums) {
 /// apart (depth and, beyond the paper, the normal), over all classes. `light_of` gives a class its light;
 /// `both`: the pixels have samples of the second class, else only the first is filtered.
 template <class LightOf>
-HWY_INLINE void filter_light(const DenoiseFrame& frame, const DecoupledStages& stages, const LightTaps& taps,
+HWY_INLINE void filter_light(const DenoiseFrame& frame, const ClassStages& stages, const LightTaps& taps,
                              int x, int y, bool both, const LightOf& light_of, Light (&out)[2]) {
   const GuideRows guides(stages.guides, y);
   const GuideCentre centre = guide_centre(guides, x);
@@ -165,7 +154,7 @@ HWY_INLINE void filter_light(const DenoiseFrame& frame, const DecoupledStages& s
 }
 
 /// The first step: neighbouring taps.
-void filter_light_row(const DenoiseFrame& frame, int y, DecoupledStages& stages) {
+void filter_light_row(const DenoiseFrame& frame, int y, ClassStages& stages) {
   const std::array<SampleClass, 2>& classes = *frame.classes;
   const LightTaps taps = light_taps(frame, 1);
   for_row(frame.width, [&](int x, std::size_t lanes) {
@@ -188,8 +177,76 @@ void filter_light_row(const DenoiseFrame& frame, int y, DecoupledStages& stages)
   });
 }
 
+/// The second step, and what both classes are together. `classes` is null where nobody asks for them.
+void filter_light_again_row(const DenoiseFrame& frame, const ClassStages& stages, int y, Matter& out,
+                            std::array<SampleClass, 2>* classes) {
+  const F zero = hn::Zero(kD);
+  const LightTaps taps = light_taps(frame, 2);
+  for_row(frame.width, [&](int x, std::size_t lanes) {
+    const F counts[2] = {load((*frame.classes)[0].count, x, y), load((*frame.classes)[1].count, x, y)};
+    const Light dark{zero3(), zero3(), zero3()};
+    Light light[2]{dark, dark};
+    if (!none(hn::Add(counts[0], counts[1]))) {
+      filter_light(
+          frame, stages, taps, x, y, !none(counts[1]),
+          [&](int m) -> LightPlanes {
+            return {stages.fl_diffuse[m], stages.fl_specular[m], stages.later[m]};
+          },
+          light);
+    }
+    MatterAt matter{zero3(), zero};
+    for (int k = 0; k < 2; ++k) {
+      const ClassAt filtered{counts[k],
+                             load(stages.fx_diffuse[k], x, y),
+                             load(stages.fx_specular[k], x, y),
+                             light[k].fl_diffuse,
+                             light[k].fl_specular,
+                             light[k].later};
+      const ClassAt result = choose(hn::Gt(counts[k], zero), filtered, empty_class());
+      add_class(result, matter);
+      if (classes != nullptr) store(result, (*classes)[k], x, y, lanes);
+    }
+    store(mean_of(matter), out.radiance, x, y, lanes);
+    store(matter.count, out.samples, x, y, lanes);
+  });
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace voxlume
 HWY_AFTER_NAMESPACE();
 
-#endif
+#if HWY_ONCE
+#include "base/parallel.h"
+
+namespace voxlume {
+
+HWY_EXPORT(filter_fx_row);
+HWY_EXPORT(filter_light_row);
+HWY_EXPORT(filter_light_again_row);
+
+namespace {
+
+/// Depths that differ by this share of the scene's size belong to different things. xu2024 has 2 dm for heads
+/// of about 5 dm across.
+constexpr float kDepthSigma = 0.4f;
+
+}  // namespace
+
+void ClassFilters::operator()(const DenoiseFrame& frame, Matter& out, std::array<SampleClass, 2>* classes) {
+  if (stages_.later[0][0].width() != frame.width || stages_.later[0][0].height() != frame.height) {
+    for (std::array<Planes3, 2>* both : {&stages_.fx_diffuse, &stages_.fx_specular, &stages_.fl_diffuse,
+                                         &stages_.fl_specular, &stages_.later})
+      for (Planes3& planes : *both) planes = make_planes3(frame.width, frame.height);
+  }
+  stages_.inverse_depth_sigma = 1 / (kDepthSigma * frame.size_mm);
+  const auto for_rows = [&](const auto& body) {
+    parallel_for(frame.height, 8, [&](std::int64_t y) { body(static_cast<int>(y)); });
+  };
+  make_guides(frame, stages_.guides);
+  for_rows([&](int y) { HWY_DYNAMIC_DISPATCH(filter_fx_row)(frame, y, stages_); });
+  for_rows([&](int y) { HWY_DYNAMIC_DISPATCH(filter_light_row)(frame, y, stages_); });
+  for_rows([&](int y) { HWY_DYNAMIC_DISPATCH(filter_light_again_row)(frame, stages_, y, out, classes); });
+}
+
+}  // namespace voxlume
+#endif  // HWY_ONCE
