@@ -142,7 +142,7 @@ void choose(const std::string& name, SceneDescription& scene) {
 
 Film render_film(const SceneView& view, int spp, FilmLayers layers) {
   Film film(view.width, view.height, layers);
-  const std::vector<TileRect> tiles = make_tiles(view.width, view.height, 16);
+  const std::vector<TileRect> tiles = make_tiles(view.width, view.height, 32);
   parallel_for(static_cast<std::int64_t>(tiles.size()), 1, [&](std::int64_t i) {
     TraceCounters counters;
     render_tile(view, tiles[i], 0, spp, film, counters);

@@ -22,7 +22,7 @@ struct Options {
   int media_frames = 32;
   std::vector<std::string> animations;     ///< empty: all
   std::vector<int> moments{30};            ///< frames at which steadiness is measured
-  int history = 12, seeds = 8, rest = 16;  ///< frames before such a moment, pictures of it, frames after it
+  int history = 12, seeds = 6, rest = 12;  ///< frames before such a moment, pictures of it, frames after it
   int neural_every = 4;                    ///< of the compared frames, since it is slow
   std::vector<int> sweep{1, 2, 4, 8, 16, 30, 60};
   std::string environment;  ///< a picture; empty: constant

@@ -7,14 +7,6 @@
 #include "denoise/picture_history.h"
 #include "denoise/row-inl.h"
 
-#ifndef VOXLUME_DENOISE_PICTURE_HISTORY_ONCE_
-#define VOXLUME_DENOISE_PICTURE_HISTORY_ONCE_
-namespace voxlume {
-/// Variance of what is not known, beyond any that light has.
-constexpr float kUnknown = 1e30f;
-}  // namespace voxlume
-#endif
-
 HWY_BEFORE_NAMESPACE();
 namespace voxlume {
 namespace HWY_NAMESPACE {
@@ -107,7 +99,7 @@ HWY_INLINE F3 gather(const Planes3& planes, const Bilinear& at) {
 }
 
 HWY_INLINE hn::Mask<Floats> is_known(const PictureMemory& prior, int x, int y) {
-  return hn::Lt(load(prior.residual_variance, x, y), hn::Set(kD, 0.5f * kUnknown));
+  return hn::Lt(load(prior.residual_variance, x, y), hn::Set(kD, 0.5f * PictureMemory::kUnknown));
 }
 
 /// What the memory has of this frame, and how far the frame is from it.
@@ -123,7 +115,7 @@ void predict_row(const DenoiseFrame& frame, const DenoisedFrame& picture, const 
     store(residual, prior.residual, x, y, lanes);
     store(gather(memory.alpha, at), prior.alpha, x, y, lanes);
     store(gather(memory.alpha_residual, at), prior.alpha_residual, x, y, lanes);
-    const F unknown = hn::Set(kD, kUnknown);
+    const F unknown = hn::Set(kD, PictureMemory::kUnknown);
     store(hn::IfThenElse(known, gather(memory.filtered_variance, at), unknown), prior.filtered_variance, x, y,
           lanes);
     store(hn::IfThenElse(known, gather(memory.residual_variance, at), unknown), prior.residual_variance, x, y,
@@ -293,7 +285,7 @@ void PictureHistory::estimate_variance(const DenoiseFrame& frame) {
 
 void PictureHistory::predict(const DenoiseFrame& frame, const DenoisedFrame& picture) {
   if (!has_memory_) {
-    prior_.residual_variance.fill(kUnknown);
+    prior_.residual_variance.fill(PictureMemory::kUnknown);
     return;
   }
   const Reprojection& moved = reproject_(frame.camera, frame.depth_mm, camera_before_);

@@ -13,6 +13,9 @@ struct PictureMemory {
   Plane filtered_variance, residual_variance;  ///< of the luminance of both
   Plane depth_mm;                              ///< of the frame
 
+  /// Variance where nothing is remembered, beyond any that light has.
+  static constexpr float kUnknown = 1e30f;
+
   void resize(int width, int height);
 };
 
