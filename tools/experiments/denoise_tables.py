@@ -214,18 +214,17 @@ def introduction(study):
 
 
 REMARKS = """<h3>Where the ranks differ from the papers', and why</h3><ul>
-<li><b>Temporal variance</b>: xu2024 has its own method steadiest. So it is here with its own weights: with history trusted as eq. 13 says, nothing given back and no plain
-mean, the variance on the head CT's orbit at 30 spp is 0.025 of the noisy pictures', SVGF's 0.027. But the pictures are 4.6 dB worse there, and 9 dB under the
-rotating light (FLIP four times as large), because the history lags. What voxlume adds against that costs steadiness: 0.095. Of that, the plain mean's part is 0.025, what is given back of
-a neighbourhood 0.011, and the rest is history that is not trusted.</li>
-<li><b>FLIP at 30 spp</b>: the noisy picture is hardly worse than the best. FLIP looks from 67 pixels a degree, where the eye blurs noise of single pixels away but not what
-a filter removes. RLS and wRLS, which average frames and hardly neighbours, win where lighting rests; where it moves, they lag, and the decoupled method wins.</li>
+<li><b>Temporal variance</b>: xu2024 has its own method steadiest. So it is here with its own temporal filters (the method xu2024), but then the history lags: eq. 13
+gives the present 5 %, and a light that turns by 3 degrees a frame comes 20 frames late, so that at 30 spp its pictures are worse than the noisy ones. The decoupled method's own history is trusted as far as
+it predicts the frame. Where light rests it is the steadiest of the others; where the area light turns and where the camera moves, SVGF is steadier and much farther from the truth.</li>
+<li><b>FLIP at 30 spp</b>: the noisy picture is hardly worse than most. FLIP looks from 67 pixels a degree, where the eye blurs noise of single pixels away but not what
+a filter removes.</li>
 <li><b>wRLS against RLS</b>: the weights of iglesias2020 protect from spikes, of which scenes with wide lights and two scatterings have few; among narrow bands wRLS is
 0.1 to 0.3 dB ahead at 1 and 2 spp. Elsewhere RLS is as good or better: a weight that is zero for dark samples costs a bias.</li>
 <li><b>SVGF</b> ranks higher than in both papers where only the camera moves: here it knows the noise of normals, alpha is clamped to what the frame has, and the
-background is no part of it, which is what the papers show it failing at. Where light moves it has the largest FLIP, as in the papers.</li>
+background is no part of it, which is what the papers show it failing at. Where light moves it has the largest FLIP but for xu2024.</li>
 <li><b>Fig. 7</b>: two classes are not free of visible error where matter is translucent: see “Classes”.</li>
-<li><b>Convergence</b> at 30 spp does not tell the methods apart: at this size every method's consecutive pictures differ by less than 0.01 at once.</li>
+<li><b>Convergence</b> at 30 spp does not tell the methods apart: at this size every method's consecutive pictures differ by less than 0.01 at once. At 2 spp decoupled, SVGF, A-SVGF and xu2024 do so within three frames, the others seldom.</li>
 </ul>"""
 
 NOT_REPRODUCED = """<h2>What is not reproduced</h2><ul>
