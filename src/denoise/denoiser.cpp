@@ -29,11 +29,6 @@ const std::vector<DenoiserKind>& denoiser_kinds() {
        {.normal = true, .albedo = true, .classes = true},
        true,
        make_decoupled},
-      {"xu2024",
-       "decoupled with the history of its paper",
-       {.normal = true, .albedo = true, .classes = true},
-       true,
-       make_xu2024},
       {"svgf", "SVGF (schied2017)", kGuides, true, make_svgf},
       {"asvgf", "A-SVGF (schied2018)", {.normal = true, .albedo = true, .gradients = true}, true, make_asvgf},
       {"atrous", "edge-avoiding a-trous wavelets", kGuides, false, make_atrous},
@@ -46,6 +41,11 @@ const std::vector<DenoiserKind>& denoiser_kinds() {
        {},
        true,
        make_wrls<{.weighted = false, .feature = false}>},
+      {"xu2024",
+       "decoupled with the history of its paper",
+       {.normal = true, .albedo = true, .classes = true},
+       true,
+       make_xu2024},
       {"oidn", "Open Image Denoise, where installed", kGuides, false, make_oidn},
   };
   return kinds;

@@ -14,8 +14,8 @@ inline const WordChoices kAcceleratorWords{{"auto", "none", "macrocell", "octree
                                            {}};
 inline const WordChoices kHierarchyRuleWords{{"cost", "thresholds"}, {}};
 inline const WordChoices kSimdWords{{"auto", "scalar", "sse4", "avx2", "avx512", "neon"}, {}};
-inline const WordChoices kDenoiseWords{{"none", "decoupled", "xu2024", "svgf", "asvgf", "atrous", "bilateral",
-                                        "wrls", "rls", "wrls-no-feature", "rls-no-feature", "oidn"},
+inline const WordChoices kDenoiseWords{{"none", "decoupled", "svgf", "asvgf", "atrous", "bilateral", "wrls",
+                                        "rls", "wrls-no-feature", "rls-no-feature", "xu2024", "oidn"},
                                        {}};
 inline const WordChoices kLightSamplingWords{{"mis", "light", "direction"}, {}};
 inline const WordChoices kAovWords{{"alpha", "depth", "normal", "albedo", "samples", "variance", "denoise"},
