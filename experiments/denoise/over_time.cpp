@@ -4,7 +4,6 @@
 #include <array>
 #include <map>
 
-#include "base/parallel.h"
 #include "metrics/flip.h"
 #include "metrics/metrics.h"
 #include "study.h"
@@ -74,50 +73,30 @@ struct Moment {
   const Image* before = nullptr;     ///< what was there before an abrupt change; null: there was none
 };
 
-/// A picture and how near it is to the reference.
-struct Look {
-  const Method* method;
-  double denoise_ms;
-  Image picture;
-  double db = 0, hdr_db = 0, flip_mean = 0, ssim_mean = 0, rmse_display = 0;
-  std::string ghost;  ///< empty: none is asked for
-};
-
-void compare(Look& look, const Moment& moment) {
-  const Image& exact = moment.exact->image;
-  look.db = psnr(look.picture, exact).value_or(99);
-  look.hdr_db = psnr_hdr(look.picture, exact).value_or(99);
-  look.flip_mean = flip(look.picture, exact).mean;
-  look.ssim_mean = ssim(look.picture, exact).value_or(1);
-  look.rmse_display = rmse(look.picture, exact);
-  if (moment.before) look.ghost = fmt::format("{:.5f}", ghost_share(look.picture, exact, *moment.before));
-}
-
-/// Shows the frame to every method, and looks at what they make of it.
 void look(const Options& o, const Sequence& sequence, const Moment& moment, Run& run, double render_ms,
           Table& table) {
-  std::vector<Look> looks;
   for (Method& method : run.methods) {
     if (!method.has_history() && moment.exact == nullptr) continue;
     if (method.name() == "oidn" && (!moment.is_compared || moment.compared % o.neural_every != 0)) continue;
     const double ms = method.denoise(run.frame);
-    if (moment.exact != nullptr) looks.push_back({&method, ms, method.picture(run.frame)});
-  }
-  parallel_for(static_cast<std::int64_t>(looks.size()), 1,
-               [&](std::int64_t i) { compare(looks[i], moment); });
-  for (const Look& look : looks) {
-    const std::string& name = look.method->name();
+    if (moment.exact == nullptr) continue;
+    const Image picture = method.picture(run.frame);
+    const Image& exact = moment.exact->image;
+    const double db = psnr(picture, exact).value_or(99), flip_mean = flip(picture, exact).mean;
+    std::string ghost;
+    if (moment.before) ghost = fmt::format("{:.5f}", ghost_share(picture, exact, *moment.before));
     table.add(fmt::format("{},{},{},{},{},{},{:.6g},{:.4f},{:.4f},{:.5f},{:.5f},{},{:.2f},{:.1f}",
-                          sequence.data().name, sequence.animation().name, run.spp, moment.frame, name,
-                          moment.is_compared ? 1 : 0, look.rmse_display, look.db, look.hdr_db, look.ssim_mean,
-                          look.flip_mean, look.ghost, look.denoise_ms, render_ms));
+                          sequence.data().name, sequence.animation().name, run.spp, moment.frame,
+                          method.name(), moment.is_compared ? 1 : 0, rmse(picture, exact), db,
+                          psnr_hdr(picture, exact).value_or(99), ssim(picture, exact).value_or(1), flip_mean,
+                          ghost, ms, render_ms));
     if (moment.is_compared) {
-      std::array<double, 3>& sums = run.sums[name];
-      sums[0] += look.db, sums[1] += look.flip_mean, sums[2] += 1;
+      std::array<double, 3>& sums = run.sums[method.name()];
+      sums[0] += db, sums[1] += flip_mean, sums[2] += 1;
     }
     if (moment.is_shown)
-      write_display(o, look.picture,
-                    fmt::format("{}-{:03d}-{}spp-{}", sequence.name(), moment.frame, run.spp, name));
+      write_display(o, picture,
+                    fmt::format("{}-{:03d}-{}spp-{}", sequence.name(), moment.frame, run.spp, method.name()));
   }
 }
 

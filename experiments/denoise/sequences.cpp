@@ -140,31 +140,14 @@ void choose(const std::string& name, SceneDescription& scene) {
   }
 }
 
-void render_tiles(const SceneView& view, int begin, int end, const std::vector<TileRect>& tiles, Film& film) {
-  parallel_for(static_cast<std::int64_t>(tiles.size()), 1, [&](std::int64_t i) {
-    TraceCounters counters;
-    render_tile(view, tiles[i], begin, end, film, counters);
-  });
-}
-
-std::vector<TileRect> tiles_of(const SceneView& view) {
-  constexpr int kTileSize = 32;
-  return make_tiles(view.width, view.height, kTileSize);
-}
-
 Film render_film(const SceneView& view, int spp, FilmLayers layers) {
   Film film(view.width, view.height, layers);
-  render_tiles(view, 0, spp, tiles_of(view), film);
+  const std::vector<TileRect> tiles = make_tiles(view.width, view.height, 32);
+  parallel_for(static_cast<std::int64_t>(tiles.size()), 1, [&](std::int64_t i) {
+    TraceCounters counters;
+    render_tile(view, tiles[i], 0, spp, film, counters);
+  });
   return film;
-}
-
-bool has_matter(const Film& film, const TileRect& tile) {
-  for (int y = tile.y0; y < tile.y1; ++y) {
-    for (int x = tile.x0; x < tile.x1; ++x) {
-      if (film.alpha(x, y) > 0) return true;
-    }
-  }
-  return false;
 }
 
 }  // namespace
@@ -243,16 +226,7 @@ double Sequence::render(int spp, std::uint32_t seed, GradientSampler& gradients,
 Image Sequence::picture(int spp, std::uint32_t seed) const {
   SceneView scene = view();
   scene.frame = seed;
-  // A constant background is exact after one sample: where nothing scattered in some thousand, more are a
-  // waste.
-  constexpr int kFirst = 16;
-  if (!data_.scene.environment->image.empty() || spp <= kFirst)
-    return image_from_film(render_film(scene, spp, {}), {}, false);
-  Film film = render_film(scene, kFirst, {});
-  std::vector<TileRect> tiles = tiles_of(scene);
-  std::erase_if(tiles, [&](const TileRect& tile) { return !has_matter(film, tile); });
-  render_tiles(scene, kFirst, spp, tiles, film);
-  return image_from_film(film, {}, false);
+  return image_from_film(render_film(scene, spp, {}), {}, false);
 }
 
 }  // namespace voxlume::study
