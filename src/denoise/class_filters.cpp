@@ -224,14 +224,6 @@ HWY_EXPORT(filter_fx_row);
 HWY_EXPORT(filter_light_row);
 HWY_EXPORT(filter_light_again_row);
 
-namespace {
-
-/// Depths that differ by this share of the scene's size belong to different things. xu2024 has 2 dm for heads
-/// of about 5 dm across.
-constexpr float kDepthSigma = 0.4f;
-
-}  // namespace
-
 void ClassFilters::operator()(const DenoiseFrame& frame, Matter& out, std::array<SampleClass, 2>* classes) {
   if (stages_.later[0][0].width() != frame.width || stages_.later[0][0].height() != frame.height) {
     for (std::array<Planes3, 2>* both : {&stages_.fx_diffuse, &stages_.fx_specular, &stages_.fl_diffuse,

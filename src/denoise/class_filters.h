@@ -19,6 +19,10 @@ struct ClassStages {
 /// that suit it, and multiplied again.
 class ClassFilters {
  public:
+  /// Depths that differ by this share of the scene's size belong to different things. xu2024 has 2 dm for
+  /// heads of about 5 dm across.
+  static constexpr float kDepthSigma = 0.4f;
+
   /// `frame` has classes; `out` and, if not null, `classes` have its size. `classes` gets the filtered
   /// classes of each pixel (empty ones are zero), `out` what they are together.
   void operator()(const DenoiseFrame& frame, Matter& out, std::array<SampleClass, 2>* classes = nullptr);

@@ -21,6 +21,7 @@ constexpr float kLeastFilteredGain = 0.15f, kLeastResidualGain = 0.03f;
 constexpr float kSquareMargin = 1.2f, kMeanMargin = 2;
 /// Pixels of a LocalMean.
 constexpr float kWindow = (2 * LocalMean::kRadius + 1) * (2 * LocalMean::kRadius + 1);
+
 HWY_INLINE F squared(F a) { return hn::Mul(a, a); }
 HWY_INLINE F positive(F a) { return hn::Max(a, hn::Zero(kD)); }
 HWY_INLINE F3 positive(F3 a) { return {positive(a.x), positive(a.y), positive(a.z)}; }

@@ -16,6 +16,7 @@ struct PictureMemory {
   /// Variance where nothing is remembered, beyond any that light has.
   static constexpr float kUnknown = 1e30f;
 
+  /// Makes all planes anew, of zeros.
   void resize(int width, int height);
 };
 
@@ -35,7 +36,8 @@ struct Innovation {
 /// spatial filters have.
 class PictureHistory {
  public:
-  /// `picture` has what spatial filters made of `frame`, and gets the picture that is shown.
+  /// `picture` has what spatial filters made of `frame`, of the frame's size, and gets the picture that is
+  /// shown. A frame of another size than the one before forgets what was.
   void blend(const DenoiseFrame& frame, DenoisedFrame& picture);
   /// The next frame has nothing to do with those before.
   void forget() { has_memory_ = false; }

@@ -144,8 +144,6 @@ HWY_EXPORT(blend_row);
 
 namespace {
 
-/// As ClassFilters has it.
-constexpr float kDepthSigma = 0.4f;
 constexpr std::int64_t kRowsAtOnce = 8;
 
 void resize_history(ClassHistory& history, int width, int height) {
@@ -199,7 +197,7 @@ void Xu2024Denoiser::denoise(const DenoiseFrame& frame, DenoisedFrame& out) {
   filter_alpha(frame.alpha, frame.samples, now_.alpha);
   const Reprojection* moved =
       has_history_ ? &reproject_(frame.camera, frame.depth_mm, camera_before_) : nullptr;
-  const BlendScales scales{1 / (kDepthSigma * frame.size_mm), inverse_light(frame, row_sums_)};
+  const BlendScales scales{1 / (ClassFilters::kDepthSigma * frame.size_mm), inverse_light(frame, row_sums_)};
   parallel_for(frame.height, kRowsAtOnce, [&](std::int64_t y) {
     HWY_DYNAMIC_DISPATCH(blend_row)(frame, moved, before_, scales, static_cast<int>(y), now_, matter_);
   });
