@@ -15,6 +15,7 @@
 #include "grid/voxel_pairs-inl.h"
 #include "sampling/vector_random-inl.h"
 #include "tracking/lanes.h"
+#include "transfer/vector_records-inl.h"
 #include "transfer/vector_transfer-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -284,10 +285,9 @@ class LaneTracker {
 
   /// classify_mu_t.
   F extinction(MaskF where, F value) const {
-    const I word = hn::ShiftLeft<2>(vector_find_piece(kF, transfer_, to_i(where), value));
-    const auto* table = &transfer_.extinction->start;
-    const F anchor = hn::GatherIndex(kF, table + 1, word), mu_0 = hn::GatherIndex(kF, table + 2, word);
-    const F slope = hn::GatherIndex(kF, table + 3, word);
+    const I piece = vector_find_piece(kF, transfer_, to_i(where), value);
+    F start, anchor, mu_0, slope;
+    vector_load_records(kF, &transfer_.extinction->start, piece, start, anchor, mu_0, slope);
     const F mu_t = hn::Add(mu_0, hn::Mul(slope, hn::Sub(value, anchor)));
     return hn::IfThenElseZero(hn::Gt(mu_t, hn::Zero(kF)), mu_t);
   }

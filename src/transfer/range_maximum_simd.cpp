@@ -5,6 +5,7 @@
 #include <hwy/highway.h>
 
 #include "transfer/range_maximum.h"
+#include "transfer/vector_records-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace voxlume {
@@ -58,7 +59,7 @@ class VectorMaximum {
   HWY_INLINE F value_at(F value, I& piece) const {
     for (;;) {
       F end, anchor, mu_t, slope;
-      load_pieces(piece, end, anchor, mu_t, slope);
+      vector_load_records(d_, pieces_, piece, end, anchor, mu_t, slope);
       const auto beyond = hn::Ge(value, end);
       if (hn::AllFalse(d_, beyond)) {
         const F v = hn::Add(mu_t, hn::Mul(slope, hn::Sub(value, anchor)));
@@ -67,43 +68,6 @@ class VectorMaximum {
       piece = hn::Sub(piece, hn::BitCast(di_, hn::VecFromMask(d_, beyond)));
     }
   }
-
-  /// The members of every lane's piece: each piece is loaded whole, four of them are transposed in each
-  /// block of 16 bytes.
-  HWY_INLINE void load_pieces(I piece, F& end, F& anchor, F& mu_t, F& slope) const {
-    alignas(64) std::int32_t at[hn::MaxLanes(Floats())];
-    hn::Store(piece, di_, at);
-#if HWY_TARGET == HWY_SCALAR
-    const float* const members = pieces_ + 4 * at[0];
-    end = hn::LoadU(d_, members), anchor = hn::LoadU(d_, members + 1);
-    mu_t = hn::LoadU(d_, members + 2), slope = hn::LoadU(d_, members + 3);
-#else
-    const hn::RepartitionToWide<hn::RebindToUnsigned<Ints> > dw;
-    const F a = pieces_of_blocks(d_, at), b = pieces_of_blocks(d_, at + 1);
-    const F c = pieces_of_blocks(d_, at + 2), d = pieces_of_blocks(d_, at + 3);
-    const auto wide = [&](F v) HWY_ATTR { return hn::BitCast(dw, v); };
-    const auto low_0 = wide(hn::InterleaveLower(d_, a, b)), low_1 = wide(hn::InterleaveLower(d_, c, d));
-    const auto high_0 = wide(hn::InterleaveUpper(d_, a, b)), high_1 = wide(hn::InterleaveUpper(d_, c, d));
-    end = hn::BitCast(d_, hn::InterleaveLower(dw, low_0, low_1));
-    anchor = hn::BitCast(d_, hn::InterleaveUpper(dw, low_0, low_1));
-    mu_t = hn::BitCast(d_, hn::InterleaveLower(dw, high_0, high_1));
-    slope = hn::BitCast(d_, hn::InterleaveUpper(dw, high_0, high_1));
-#endif
-  }
-
-#if HWY_TARGET != HWY_SCALAR
-  /// Piece at[4 b] in block b.
-  template <class D>
-  HWY_INLINE hn::Vec<D> pieces_of_blocks(D d, const std::int32_t* at) const {
-    constexpr std::size_t kLanes = hn::MaxLanes(D());
-    if constexpr (kLanes == 4) {
-      return hn::LoadU(d, pieces_ + 4 * at[0]);
-    } else {
-      const hn::Half<D> half;
-      return hn::Combine(d, pieces_of_blocks(half, at + kLanes / 2), pieces_of_blocks(half, at));
-    }
-  }
-#endif
 
   /// The greatest value at the knots of pieces first + 1 .. last; any value where there are none.
   HWY_INLINE F knot_maximum(I first, I last, I crossed) const {
