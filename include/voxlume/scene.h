@@ -38,7 +38,63 @@ struct TransferPoint {
   std::optional<double> mu_t_per_mm;  ///< >= 0; a function uses either opacity or this, not both
   std::optional<Color> color;         ///< scattering albedo, each channel in [0,1]
   std::optional<Color> emission;      ///< emitted radiance of an opaque region, >= 0
+  std::optional<double> roughness = {};      ///< [0,1]
+  std::optional<double> metallic = {};       ///< [0,1]
+  std::optional<double> specular = {};       ///< [0,1]
+  std::optional<double> anisotropy = {};     ///< (-1,1)
+  std::optional<double> surface_share = {};  ///< [0,1]: multiplies the share that follows from the gradient
+  std::string material = {};                 ///< of material rules: a name of `materials` or of the library
   friend bool operator==(const TransferPoint&, const TransferPoint&) = default;
+};
+
+/// A volume beside the main one that rules read: a file, or derived from another.
+enum class ProxyKind { kFile, kGradient, kSmoothed, kDistance };
+enum class Lookup { kLinear, kNearest };
+struct ProxyDescription {
+  std::string name;  ///< what rules call it; neither "data" nor "opacity"
+  ProxyKind kind = ProxyKind::kFile;
+  std::string path;                 ///< kFile: any volume file, on any grid
+  std::string of = "data";          ///< derived: the volume it is derived from
+  double sigma_mm = 1;              ///< kSmoothed: of the Gaussian; > 0
+  std::vector<std::int64_t> labels;  ///< kDistance: the labels that are inside
+  Lookup lookup = Lookup::kLinear;   ///< nearest: whole numbers, never interpolated (labels)
+  friend bool operator==(const ProxyDescription&, const ProxyDescription&) = default;
+};
+
+/// The five kinds of transfer function of xu2025 section 5: CCTF, CPCTF, CDPTF, MPCTF, MDPTF.
+enum class RuleKind {
+  kCoefficientCurve,   ///< linear between points
+  kCoefficientSteps,   ///< a point holds up to the next one; nothing below the first
+  kCoefficientPoints,  ///< a point holds at its value alone
+  kMaterialSteps,      ///< steps that name materials
+  kMaterialPoints      ///< points that name materials
+};
+/// How a 2-D rule goes from one column to the next.
+enum class ColumnForm { kCurve, kSteps, kPoints };
+
+/// The function of a 2-D rule at one value of its second volume.
+struct RuleColumn {
+  double at = 0;  ///< value of the second volume; columns are sorted, no two alike
+  std::vector<TransferPoint> points;
+  friend bool operator==(const RuleColumn&, const RuleColumn&) = default;
+};
+
+/// A transfer function of a volume other than by `points`: 1-D with points, or 2-D with columns.
+struct RuleDescription {
+  RuleKind kind = RuleKind::kCoefficientCurve;
+  std::string volume = "data";  ///< "data", "opacity" (of the transfer function's own points) or a proxy
+  std::vector<TransferPoint> points;
+  std::string along;  ///< 2-D: the second volume
+  ColumnForm column_form = ColumnForm::kCurve;
+  std::vector<RuleColumn> columns;
+  friend bool operator==(const RuleDescription&, const RuleDescription&) = default;
+};
+
+/// How rules and the transfer function's own points, which count as the last rule, become one.
+enum class Merge {
+  kProduct,   ///< every coefficient is the product of the rules that give it
+  kPriority,  ///< every coefficient is the first rule's that applies and gives it
+  kMaximum    ///< the rule of the greatest extinction comes first, the others in order
 };
 
 /// Data value to optical coefficients: interpolate the data, then classify.
@@ -47,7 +103,31 @@ struct TransferDescription {
   std::optional<double> reference_length_mm;  ///< mu_t = -ln(1 - min(o, 0.9999)) / reference_length_mm; > 0
   double density_scale = 1;                   ///< multiplies mu_t; >= 0
   std::vector<TransferPoint> points;
+  std::vector<RuleDescription> rules;
+  Merge merge = Merge::kPriority;
+  bool smooth_labels = true;  ///< normals at borders of labels come from a smoothed field
   friend bool operator==(const TransferDescription&, const TransferDescription&) = default;
+};
+
+/// A material by name. What is absent is that of `like`, else the scene's `material`.
+struct NamedMaterialDescription {
+  std::string name;
+  std::string like;                     ///< a material of the library (docs/materials.md), or none
+  std::optional<double> opacity;        ///< [0,1] per reference length; absent: the rules' own
+  std::optional<double> mu_t_per_mm;    ///< instead of an opacity
+  std::optional<Color> color;           ///< [0,1]
+  std::optional<Color> emission;        ///< >= 0
+  std::optional<double> roughness;      ///< [0,1]
+  std::optional<double> metallic;       ///< [0,1]: share of metal among surface particles
+  std::optional<double> specular;       ///< [0,1]
+  std::optional<double> anisotropy;     ///< (-1,1)
+  std::optional<double> surface_share;  ///< [0,1]: multiplies the share that follows from the gradient
+  std::optional<double> transmission;   ///< [0,1]: share of rough glass among the rest of the surface
+  std::optional<double> ior;            ///< [1,4]: of the glass
+  std::optional<double> diffuse_roughness;  ///< [0,1]: 0 is Lambert
+  std::optional<double> back_anisotropy;    ///< (-1,1): of a second lobe of the phase function
+  std::optional<double> back_share;         ///< [0,1]: of that lobe
+  friend bool operator==(const NamedMaterialDescription&, const NamedMaterialDescription&) = default;
 };
 
 /// Colours of a label volume over the transfer function's colour (nearest lookup; opacity is not changed).
@@ -59,6 +139,9 @@ struct LabelsDescription {
 };
 
 enum class Shading { kCoexistence, kExposureRender, kPhase, kBrdf };
+/// Reciprocal: one BRDF that absorbs what its parts do not reflect. Particles: normalised lobes, all absorption
+/// in the colours (xu2025 section 3.2). Auto: particles where materials or rules ask for more than colours.
+enum class LobeModel { kAuto, kReciprocal, kParticles };
 enum class SurfaceShareForm { kHybrid, kExponential, kModulation, kThreshold };
 
 /// How matter scatters, beyond its albedo.
@@ -70,6 +153,9 @@ struct MaterialDescription {
   double anisotropy = 0;          ///< Henyey-Greenstein g in (-1, 1)
   double roughness = 0.4;         ///< GGX alpha = roughness^2; [0,1]
   double specular = 0.5;          ///< Fresnel F0 = 0.08 * specular; [0,1]; 0 leaves Lambert alone
+  LobeModel lobes = LobeModel::kAuto;
+  /// Multiplies the extinction that shadow rays meet, in (0, 1]; 1 is physical (xu2025 section 3.4).
+  double self_occlusion = 1;
   friend bool operator==(const MaterialDescription&, const MaterialDescription&) = default;
 };
 
@@ -236,8 +322,10 @@ constexpr int kSceneVersion = 1;
 struct SceneDescription {
   int version = kSceneVersion;
   VolumeDescription volume;
+  std::vector<ProxyDescription> proxies;  ///< at most three
   TransferDescription transfer;
   std::optional<LabelsDescription> labels;
+  std::vector<NamedMaterialDescription> materials;
   MaterialDescription material;
   std::optional<std::vector<LightDescription>> lights;  ///< absent: the default lights; [] is none
   std::optional<EnvironmentDescription> environment;    ///< absent: the default one

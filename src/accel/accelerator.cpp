@@ -1,5 +1,7 @@
 #include "accel/accelerator.h"
 
+#include "voxlume/error.h"
+
 namespace voxlume {
 
 Accelerator::Structure Accelerator::build(const GridView& grid, const AcceleratorChoice& choice) {
@@ -26,6 +28,22 @@ Accelerator::Accelerator(const GridView& grid, const AcceleratorChoice& choice)
 
 void Accelerator::update(const TransferFunction& transfer) {
   std::visit([&](auto& structure) { structure.update(transfer); }, structure_);
+}
+
+void Accelerator::update(const GridView& main, const Classifier& classifier) {
+  const auto update_by = [&](auto& structure, CellOrder order) {
+    if (!bounds_) bounds_.emplace(main, structure.cell_voxels(), order, classifier.volumes());
+    bounds_->prepare(classifier);
+    structure.update(*bounds_);
+  };
+  if (auto* hierarchy = std::get_if<MajorantHierarchy>(&structure_)) {
+    update_by(*hierarchy, CellOrder::kCubes);
+  } else if (auto* grid = std::get_if<MajorantGrid>(&structure_)) {
+    update_by(*grid, CellOrder::kRows);
+  } else {
+    throw Error(ErrorCode::kUnsupported, "/render/accelerator",
+                "rules need auto, hierarchy (by cost), macrocell or none");
+  }
 }
 
 AcceleratorView Accelerator::view() const {

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <variant>
 
 #include "accel/accelerator_view.h"
@@ -24,6 +25,12 @@ class Accelerator {
   Accelerator(const GridView& grid, const AcceleratorChoice& choice);
 
   void update(const TransferFunction& transfer);
+  /// The same under rules of the main volume and its proxies; `main` is the constructor's grid. What the
+  /// volumes hold in the cells is found at the first call and after forget_volumes(). Throws Error
+  /// kUnsupported for the structures that bound one function of one volume only.
+  void update(const GridView& main, const Classifier& classifier);
+  /// To be called when other volumes are to be read by rules.
+  void forget_volumes() { bounds_.reset(); }
   AcceleratorView view() const;
 
  private:
@@ -31,6 +38,7 @@ class Accelerator {
       std::variant<MajorantGrid, MajorantHierarchy, SkippingOctree, ThresholdOctree, ResidencyOctree>;
   static Structure build(const GridView& grid, const AcceleratorChoice& choice);
   Structure structure_;
+  std::optional<RuleBounds> bounds_;
 };
 
 }  // namespace voxlume

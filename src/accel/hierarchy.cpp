@@ -1,6 +1,7 @@
 #include "accel/hierarchy.h"
 
 #include <limits>
+#include <numeric>
 
 #include "accel/majorant_grid.h"
 #include "base/parallel.h"
@@ -64,7 +65,23 @@ void MajorantHierarchy::update(const TransferFunction& transfer) {
     touched[super_cube] = true;
     super_cubes.push_back(super_cube);
   }
-  if (cubes.empty()) return;
+  if (!cubes.empty()) join_all(cubes, super_cubes);
+}
+
+void MajorantHierarchy::update(const RuleBounds& bounds) {
+  maximum_ = {};
+  bounds_ = &bounds;
+  std::vector<std::int64_t> cubes(static_cast<std::size_t>(volume_of(cubes_)));
+  std::vector<std::int64_t> super_cubes(static_cast<std::size_t>(volume_of(super_cubes_)));
+  std::iota(cubes.begin(), cubes.end(), std::int64_t{0});
+  std::iota(super_cubes.begin(), super_cubes.end(), std::int64_t{0});
+  join_all(cubes, super_cubes);
+  bounds_ = nullptr;
+}
+
+/// Decides about the blocks of some cubes and of the super cubes that they are in.
+void MajorantHierarchy::join_all(std::span<const std::int64_t> cubes,
+                                 std::span<const std::int64_t> super_cubes) {
   parallel_for(static_cast<std::int64_t>(cubes.size()), 8, [&](std::int64_t n) { join_cells(cubes[n]); });
   parallel_for(static_cast<std::int64_t>(super_cubes.size()), 1,
                [&](std::int64_t n) { join_cubes(super_cubes[n]); });
@@ -83,16 +100,27 @@ std::int64_t MajorantHierarchy::super_cube_of(std::int64_t cube) const {
   return (std::int64_t{at.k / kSide} * super_cubes_[1] + at.j / kSide) * super_cubes_[0] + at.i / kSide;
 }
 
+/// The majorants of a cube's cells; false where all are 0.
+bool MajorantHierarchy::find_cells(std::int64_t at, BlockCube& blocks) const {
+  const ValueRange* ranges = &ranges_.ranges[at * kCubeCells];
+  if (!bounds_) {
+    if (!(maximum_(table_[at].values) > 0)) return false;
+    maximum_.find(ranges, kCubeCells, kMajorantSafety, blocks.mu_maj.data());
+    return true;
+  }
+  bounds_->find(at * kCubeCells, kCubeCells, ranges, kMajorantSafety, blocks.mu_maj.data());
+  return std::any_of(blocks.mu_maj.begin(), blocks.mu_maj.end(), [](float mu_maj) { return mu_maj > 0; });
+}
+
 /// Decides about the blocks of a cube; writes its words unless they are all one.
 void MajorantHierarchy::join_cells(std::int64_t at) {
   Cube& cube = table_[at];
-  if (!(maximum_(cube.values) > 0)) {
+  BlockCube blocks;
+  if (!find_cells(at, blocks)) {
     cube.block = {};
     cube.own_word = make_word(0, std::min(costs_.max_level, BlockCube::kLevels));
     return;
   }
-  BlockCube blocks;
-  maximum_.find(&ranges_.ranges[at * kCubeCells], kCubeCells, kMajorantSafety, blocks.mu_maj.data());
   const JoinRule cells{costs_.lookup, chord_mm_};
   for (int i = 0; i < BlockCube::kParts; ++i) blocks.cost[i] = cells.cost(blocks.mu_maj[i]);
   blocks.join(costs_.lookup, chord_mm_, 0, costs_.max_level);

@@ -1,8 +1,10 @@
 #pragma once
+#include <span>
 #include <vector>
 
 #include "accel/block_join.h"
 #include "accel/hierarchy_view.h"
+#include "accel/rule_bounds.h"
 #include "grid/value_range.h"
 #include "transfer/transfer_function.h"
 
@@ -28,7 +30,11 @@ class MajorantHierarchy {
   /// kMajorantSafety, of a block the largest of its cells. Only cubes of cells with values that the function
   /// changes since the last update are computed; the result is the same as if all were.
   void update(const TransferFunction& transfer);
+  /// The same under rules; computes every cube. `bounds` are of this grid, cells of cell_voxels() in cubes,
+  /// and prepared.
+  void update(const RuleBounds& bounds);
 
+  int cell_voxels() const { return ranges_.cell_voxels; }
   HierarchyView view() const;
 
  private:
@@ -45,6 +51,8 @@ class MajorantHierarchy {
   };
   CellBox cells_of(std::int64_t cube) const;
   std::int64_t super_cube_of(std::int64_t cube) const;
+  bool find_cells(std::int64_t cube, BlockCube& blocks) const;
+  void join_all(std::span<const std::int64_t> cubes, std::span<const std::int64_t> super_cubes);
   void join_cells(std::int64_t cube);
   void join_cubes(std::int64_t super_cube);
   void write_cells(std::int64_t cube, const BlockCube& blocks);
@@ -57,7 +65,8 @@ class MajorantHierarchy {
   Box3f domain_;
   float chord_mm_;  ///< mean length of a random line through a finest cell
   std::int32_t cubes_[3], super_cubes_[3];
-  RangeMaximum maximum_;  ///< of the last update
+  RangeMaximum maximum_;                ///< of the last update, unless that had rules
+  const RuleBounds* bounds_ = nullptr;  ///< during an update with rules
   std::vector<Cube> table_;
   std::vector<std::uint32_t> words_;
 };

@@ -20,6 +20,16 @@ void MajorantGrid::update(const TransferFunction& transfer) {
                [&](std::int64_t cell) { mu_min_[cell] = minimum_of(cell, transfer); });
 }
 
+void MajorantGrid::update(const RuleBounds& bounds) {
+  constexpr std::int64_t kRun = RuleBounds::kMostCells;
+  const auto cells = static_cast<std::int64_t>(mu_maj_.size());
+  parallel_for((cells + kRun - 1) / kRun, 1, [&](std::int64_t run) {
+    const std::int64_t begin = run * kRun;
+    bounds.find(begin, std::min(kRun, cells - begin), &ranges_.ranges[begin], kMajorantSafety,
+                &mu_maj_[begin]);
+  });
+}
+
 float MajorantGrid::minimum_of(std::int64_t cell, const TransferFunction& transfer) const {
   const ValueRange range = ranges_.ranges[cell];
   if (!has_nan_.empty() && has_nan_[cell]) return 0;

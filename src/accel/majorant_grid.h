@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "accel/majorant_view.h"
+#include "accel/rule_bounds.h"
 #include "grid/value_range.h"
 #include "transfer/transfer_function.h"
 
@@ -27,7 +28,11 @@ class MajorantGrid {
   /// kMajorantSafety; and every minimum that is kept: the exact infimum, 0 where a voxel is NaN or the field
   /// overflows.
   void update(const TransferFunction& transfer);
+  /// The same under rules, without minima. `bounds` are of this grid, cells of cell_voxels() in rows, and
+  /// prepared.
+  void update(const RuleBounds& bounds);
 
+  int cell_voxels() const { return ranges_.cell_voxels; }
   MajorantView view() const;
 
  private:

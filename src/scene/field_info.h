@@ -78,6 +78,30 @@ struct EnumWords<Shading> {
   static constexpr std::array<std::string_view, 4> kWords{"coexistence", "er", "phase", "brdf"};
 };
 template <>
+struct EnumWords<LobeModel> {
+  static constexpr std::array<std::string_view, 3> kWords{"auto", "reciprocal", "particles"};
+};
+template <>
+struct EnumWords<ProxyKind> {
+  static constexpr std::array<std::string_view, 4> kWords{"file", "gradient", "smoothed", "distance"};
+};
+template <>
+struct EnumWords<Lookup> {
+  static constexpr std::array<std::string_view, 2> kWords{"linear", "nearest"};
+};
+template <>
+struct EnumWords<RuleKind> {
+  static constexpr std::array<std::string_view, 5> kWords{"cctf", "cpctf", "cdptf", "mpctf", "mdptf"};
+};
+template <>
+struct EnumWords<ColumnForm> {
+  static constexpr std::array<std::string_view, 3> kWords{"curve", "steps", "points"};
+};
+template <>
+struct EnumWords<Merge> {
+  static constexpr std::array<std::string_view, 3> kWords{"product", "priority", "maximum"};
+};
+template <>
 struct EnumWords<SurfaceShareForm> {
   static constexpr std::array<std::string_view, 4> kWords{"hybrid", "exponential", "modulation", "threshold"};
 };

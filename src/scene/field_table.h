@@ -2,6 +2,7 @@
 #include "scene/field_info.h"
 #include "scene/field_table_animation.h"
 #include "scene/field_table_matter.h"
+#include "scene/field_table_rules.h"
 #include "scene/field_table_view.h"
 
 namespace voxlume {
@@ -156,9 +157,12 @@ void visit_fields(V&& visit, Struct<SceneDescription>) {
          .required = true},
         &T::version);
   visit({.key = "volume", .doc = "Where the voxels come from."}, &T::volume);
+  visit({.key = "proxies", .doc = "Further volumes, for rules.", .max_count = 3}, &T::proxies);
   visit({.key = "transfer", .doc = "Data value to optical coefficients."}, &T::transfer);
   visit({.key = "labels", .doc = "Colors of a label volume.", .absent = "none"}, &T::labels);
   visit({.key = "material", .doc = "How matter scatters."}, &T::material);
+  visit({.key = "materials", .doc = "Materials that rules name, beside the library's.", .max_count = 1024},
+        &T::materials);
   visit({.key = "lights", .doc = "Lights; [] is none.", .absent = "the default lights", .max_count = 256},
         &T::lights);
   visit({.key = "environment", .doc = "Light from everywhere.", .absent = "the default environment"},

@@ -3,7 +3,7 @@
 
 namespace voxlume {
 
-// Field tables (scene/field_table.h) of what is seen: volume, transfer function, labels, material, clip box.
+// Field tables (scene/field_table.h) of what is seen: volume, labels, material, clip box.
 
 inline StructInfo struct_info(Struct<VolumeDescription>) { return {"Volume", "Where the voxels come from."}; }
 template <class V>
@@ -30,60 +30,6 @@ void visit_fields(V&& visit, Struct<VolumeDescription>) {
                 "orthonormal.",
          .absent = "the file's"},
         &T::direction);
-}
-
-inline StructInfo struct_info(Struct<TransferPoint>) {
-  return {"TransferPoint",
-          "One control point. Every coefficient has its own piecewise-linear curve through the points that "
-          "give it. A function uses opacity or mu_t_per_mm, not both."};
-}
-template <class V>
-void visit_fields(V&& visit, Struct<TransferPoint>) {
-  using T = TransferPoint;
-  visit({.key = "value",
-         .doc = "Data value in the file's own units (HU, intensity). Points are sorted by it; two at one "
-                "value are a step.",
-         .range = between(-3e38, 3e38),
-         .required = true},
-        &T::value);
-  visit({.key = "opacity",
-         .doc = "Opacity of a layer one reference length thick.",
-         .range = between(0, 1),
-         .absent = "the curve passes by"},
-        &T::opacity);
-  visit({.key = "mu_t_per_mm",
-         .doc = "Extinction, instead of an opacity.",
-         .unit = "1/mm",
-         .range = at_least(0),
-         .absent = "the curve passes by"},
-        &T::mu_t_per_mm);
-  visit(
-      {.key = "color", .doc = "Scattering albedo.", .range = between(0, 1), .absent = "the curve passes by"},
-      &T::color);
-  visit({.key = "emission",
-         .doc = "Emitted radiance of an opaque region.",
-         .range = at_least(0),
-         .absent = "the curve passes by"},
-        &T::emission);
-}
-
-inline StructInfo struct_info(Struct<TransferDescription>) {
-  return {"Transfer", "Data value to optical coefficients: the data is interpolated first, then classified."};
-}
-template <class V>
-void visit_fields(V&& visit, Struct<TransferDescription>) {
-  using T = TransferDescription;
-  visit({.key = "preset", .doc = "Name of a preset (`voxlume presets`); used where points is empty."},
-        &T::preset);
-  visit({.key = "reference_length_mm",
-         .doc = "Thickness an opacity refers to: mu_t = -ln(1 - min(opacity, 0.9999)) / reference_length_mm.",
-         .unit = "mm",
-         .range = above(0),
-         .absent = "1 mm for CT, else longest side / 256"},
-        &T::reference_length_mm);
-  visit({.key = "density_scale", .doc = "Multiplies the extinction.", .range = between(0, 1e6)},
-        &T::density_scale);
-  visit({.key = "points", .doc = "Control points, sorted by value.", .max_count = 65536}, &T::points);
 }
 
 inline StructInfo struct_info(Struct<LabelsDescription>) {
@@ -132,6 +78,16 @@ void visit_fields(V&& visit, Struct<MaterialDescription>) {
          .doc = "Fresnel F0 = 0.08 specular; 0 leaves a Lambert surface.",
          .range = between(0, 1)},
         &T::specular);
+  visit({.key = "lobes",
+         .doc = "What scatters: one BRDF that absorbs what its parts do not reflect (reciprocal), or normalized "
+                "lobes whose absorption is all in the colors (particles). auto takes particles where "
+                "materials or rules give more than opacities, colors and emission."},
+        &T::lobes);
+  visit({.key = "self_occlusion",
+         .doc = "Multiplies the extinction that shadow rays meet; below 1 brightens what shadows itself. 1 is "
+                "physical.",
+         .range = above_to(0, 1)},
+        &T::self_occlusion);
 }
 
 inline StructInfo struct_info(Struct<ClipDescription>) {

@@ -30,14 +30,19 @@ std::array<double, N> each_number(const KeyWindow<std::array<double, N>>& window
   return out;
 }
 
+constexpr std::optional<double> TransferPoint::*kNumbers[] = {
+    &TransferPoint::opacity,  &TransferPoint::mu_t_per_mm, &TransferPoint::roughness,    &TransferPoint::metallic,
+    &TransferPoint::specular, &TransferPoint::anisotropy,  &TransferPoint::surface_share};
+constexpr std::optional<Color> TransferPoint::*kColors[] = {&TransferPoint::color, &TransferPoint::emission};
+
 /// Whether two functions have points that correspond.
 bool same_form(const Points& a, const Points& b) {
-  return std::equal(
-      a.begin(), a.end(), b.begin(), b.end(), [](const TransferPoint& p, const TransferPoint& q) {
-        return p.opacity.has_value() == q.opacity.has_value() &&
-               p.mu_t_per_mm.has_value() == q.mu_t_per_mm.has_value() &&
-               p.color.has_value() == q.color.has_value() && p.emission.has_value() == q.emission.has_value();
-      });
+  const auto alike = [](const TransferPoint& p, const TransferPoint& q) {
+    const auto both = [&](auto member) { return (p.*member).has_value() == (q.*member).has_value(); };
+    return p.material == q.material && std::all_of(std::begin(kNumbers), std::end(kNumbers), both) &&
+           std::all_of(std::begin(kColors), std::end(kColors), both);
+  };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), alike);
 }
 
 /// Sets every number of out[i] from those of the window's points i.
@@ -95,10 +100,8 @@ Points interpolate_value(const KeyWindow<Points>& window, double time_s, Interpo
   for (std::size_t i = 0; i < out.size(); ++i) {
     const PointBlend blend{alike, i, time_s, interpolation};
     out[i].value = blend.number([](const TransferPoint& p) { return p.value; });
-    blend.set(&TransferPoint::opacity, out[i]);
-    blend.set(&TransferPoint::mu_t_per_mm, out[i]);
-    blend.set(&TransferPoint::color, out[i]);
-    blend.set(&TransferPoint::emission, out[i]);
+    for (const auto member : kNumbers) blend.set(member, out[i]);
+    for (const auto member : kColors) blend.set(member, out[i]);
   }
   return out;
 }

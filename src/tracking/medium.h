@@ -1,7 +1,7 @@
 #pragma once
 #include "accel/accelerator_view.h"
 #include "grid/sample.h"
-#include "transfer/transfer_view.h"
+#include "transfer/classifier_view.h"
 
 namespace voxlume {
 
@@ -10,6 +10,9 @@ struct Medium {
   GridView grid;
   TransferView transfer;
   AcceleratorView accelerator;
+  ClassifierView rules;  ///< where there are some, they classify in place of `transfer`
+  /// Multiplies the extinction that shadow rays meet, in (0, 1] (xu2025 section 3.4).
+  float shadow_extinction = 1;
 };
 
 /// A ray in index space that keeps t in mm.
@@ -32,9 +35,15 @@ inline IndexRay to_index_ray(const GridView& grid, Vec3f origin_world, Vec3f dir
   return {grid.index_from_world.point(origin_world), grid.index_from_world.vector(direction_world)};
 }
 
+/// mu_t [1/mm] at a point where the data is `value`.
+inline float extinction_of(const Medium& medium, Vec3f p_index, float value) noexcept {
+  return medium.rules.rule_count == 0 ? classify_mu_t(medium.transfer, value)
+                                      : classify_mu_t(medium.rules, p_index, value);
+}
+
 /// mu_t [1/mm] at a point, as the trackers see it.
 inline float extinction_at(const Medium& medium, Vec3f p_index) noexcept {
-  return classify_mu_t(medium.transfer, sample_trilinear(medium.grid, p_index));
+  return extinction_of(medium, p_index, sample_trilinear(medium.grid, p_index));
 }
 
 }  // namespace voxlume

@@ -5,14 +5,16 @@
 namespace voxlume {
 namespace {
 
-/// Looks the data up at the tentative collisions of a ray, a Poisson process of at least the majorant's rate.
-/// `visit(t, p_index, value, share)`, share being mu_t over that rate, returns true to stop.
+/// Looks the data up at the tentative collisions of a ray, a Poisson process of at least the majorant's rate,
+/// both times `extinction`. `visit(t, p_index, value, share)`, share being mu_t over that rate, returns true
+/// to stop.
 template <class Visit>
-void visit_tentative_collisions(const Medium& medium, const TrackRay& track, Rng& rng,
+void visit_tentative_collisions(const Medium& medium, const TrackRay& track, float extinction, Rng& rng,
                                 TrackingCounters& counters, Visit&& visit) noexcept {
   const IndexRay& ray = track.ray;
   const float t_near = track.t_near, t_far = track.t_far;
-  const CollisionRates rates = collision_rates(track.fine);
+  CollisionRates rates = collision_rates(track.fine);
+  rates = {rates.in_matter * extinction, rates.elsewhere * extinction};
   float rate = rates.elsewhere;
   float tau = sample_optical_depth(track.u_depth >= 0 ? track.u_depth : rng.next());
   // From here on distances are counted from where the ray enters: far from the eye, t is coarser.
@@ -33,10 +35,10 @@ void visit_tentative_collisions(const Medium& medium, const TrackRay& track, Rng
         const Vec3f p = min(max(on_ray, segment.cell.lower), segment.cell.upper);
         ++counters.steps;
         const float value = sample_trilinear(medium.grid, p);
-        const float mu_t = classify_mu_t(medium.transfer, value);
+        const float mu_t = extinction_of(medium, p, value);
         VOXLUME_ASSERT_LE(mu_t, segment.mu_maj);
         counters.majorant_violations += mu_t > segment.mu_maj;
-        if (visit(t_near + t, p, value, mu_t / mu_maj)) return;
+        if (visit(t_near + t, p, value, mu_t * extinction / mu_maj)) return;
         rate = mu_t > segment.mu_maj * kMatterShare ? rates.in_matter : rates.elsewhere;
         mu_maj = segment.mu_maj * rate;
         tau = sample_optical_depth(rng.next());
@@ -54,7 +56,7 @@ Collision sample_free_flight(const Medium& medium, const TrackRay& ray, Rng& rng
   Collision collision;
   const float threshold = collision_threshold(ray.u_collision >= 0 ? ray.u_collision : rng.next());
   float transmittance = 1;
-  visit_tentative_collisions(medium, ray, rng, counters,
+  visit_tentative_collisions(medium, ray, 1, rng, counters,
                              [&](float t, Vec3f p_index, float value, float share) {
                                transmittance *= 1.0f - share;
                                if (!(transmittance < threshold)) return false;
@@ -67,7 +69,7 @@ Collision sample_free_flight(const Medium& medium, const TrackRay& ray, Rng& rng
 float estimate_transmittance(const Medium& medium, const TrackRay& ray, Rng& rng,
                              TrackingCounters& counters) noexcept {
   float transmittance = 1;
-  visit_tentative_collisions(medium, ray, rng, counters, [&](float, Vec3f, float, float share) {
+  const auto visit = [&](float, Vec3f, float, float share) {
     transmittance *= 1.0f - share;
     if (transmittance >= kRouletteTransmittance) return false;
     if (rng.next() * kRouletteTransmittance >= transmittance) {
@@ -76,7 +78,8 @@ float estimate_transmittance(const Medium& medium, const TrackRay& ray, Rng& rng
     }
     transmittance = kRouletteTransmittance;
     return false;
-  });
+  };
+  visit_tentative_collisions(medium, ray, medium.shadow_extinction, rng, counters, visit);
   return transmittance;
 }
 

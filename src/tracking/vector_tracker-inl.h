@@ -33,6 +33,7 @@ class LaneTracker {
       : hierarchy_(medium.accelerator.hierarchy),
         grid_(medium.grid),
         transfer_(medium.transfer),
+        medium_(medium),
         lanes_(lanes) {}
 
   void run() {
@@ -173,6 +174,11 @@ class LaneTracker {
       store_where(where_f, hn::Zero(kF), *zero, v);
     store_where(where_f, hn::Set(kF, 1.0f), lanes_.transmittance, v);
     store_where(to_i(where_f), hn::Set(kI, -1), lanes_.fetched[0], v);
+    if (medium_.shadow_extinction != 1) {
+      const F scale = hn::Set(kF, medium_.shadow_extinction);
+      for (auto* rate : {&lanes_.rate_in_matter, &lanes_.rate_elsewhere})
+        store_where(hn::AndNot(flight, where_f), hn::Mul(load(*rate, v), scale), *rate, v);
+    }
     store_where(where_f, load(lanes_.rate_elsewhere, v), lanes_.rate, v);
     set_state(where, Lanes::kCross, v);
   }
@@ -283,13 +289,28 @@ class LaneTracker {
     return pairs.interpolate(kF, fraction);
   }
 
-  /// classify_mu_t.
-  F extinction(MaskF where, F value) const {
+  /// extinction_of.
+  F extinction(MaskF where, F value, std::size_t v) {
+    if (medium_.rules.rule_count > 0) return extinction_by_rules(where, value, v);
     const I piece = vector_find_piece(kF, transfer_, to_i(where), value);
     F start, anchor, mu_0, slope;
     vector_load_records(kF, &transfer_.extinction->start, piece, start, anchor, mu_0, slope);
     const F mu_t = hn::Add(mu_0, hn::Mul(slope, hn::Sub(value, anchor)));
     return hn::IfThenElseZero(hn::Gt(mu_t, hn::Zero(kF)), mu_t);
+  }
+
+  /// The same, lane by lane, at lanes_.position.
+  F extinction_by_rules(MaskF where, F value, std::size_t v) const {
+    alignas(64) float values[kN], mu_t[kN] = {};
+    hn::Store(value, kF, values);
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(kF, where, bytes);
+    for (std::uint32_t bits = bytes[0] | bytes[1] << 8; bits; bits &= bits - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+      const Vec3f p(lanes_.position[0][v + lane], lanes_.position[1][v + lane], lanes_.position[2][v + lane]);
+      mu_t[lane] = classify_mu_t(medium_.rules, p, values[lane]);
+    }
+    return hn::Load(kF, mu_t);
   }
 
   /// One tentative collision of each lane that has come to one.
@@ -312,7 +333,7 @@ class LaneTracker {
       store_where(where_f, p[a], lanes_.position[a], v);
     }
     const F value = interpolate(where_f, p, v);
-    const F mu_t = extinction(where_f, value);
+    const F mu_t = extinction(where_f, value, v);
     store_where(where_f, value, lanes_.value, v);
     const U one = hn::Set(kU, 1);
     store(hn::Add(load(lanes_.steps, v), hn::IfThenElseZero(where, one)), lanes_.steps, v);
@@ -321,10 +342,12 @@ class LaneTracker {
     store(hn::Add(load(lanes_.violations, v), hn::IfThenElseZero(violated, one)), lanes_.violations, v);
 
     const F threshold = load(lanes_.threshold, v);
-    F transmittance =
-        hn::Mul(load(lanes_.transmittance, v), hn::Sub(hn::Set(kF, 1.0f), hn::Div(mu_t, mu_maj)));
-    const MaskU low = hn::And(where, to_u(hn::Lt(transmittance, threshold)));
     const MaskU shadow = hn::Ne(load(lanes_.is_shadow, v), hn::Zero(kU));
+    F met = mu_t;
+    if (medium_.shadow_extinction != 1)
+      met = hn::IfThenElse(to_f(shadow), hn::Mul(mu_t, hn::Set(kF, medium_.shadow_extinction)), mu_t);
+    F transmittance = hn::Mul(load(lanes_.transmittance, v), hn::Sub(hn::Set(kF, 1.0f), hn::Div(met, mu_maj)));
+    const MaskU low = hn::And(where, to_u(hn::Lt(transmittance, threshold)));
     const MaskU gambles = hn::And(low, shadow), real = hn::AndNot(shadow, low);
     MaskU done = real;
     if (!hn::AllFalse(kU, gambles)) {
@@ -356,6 +379,7 @@ class LaneTracker {
   const HierarchyView& hierarchy_;
   const GridView& grid_;
   const TransferView& transfer_;
+  const Medium& medium_;
   Lanes& lanes_;
 };
 

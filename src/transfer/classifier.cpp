@@ -1,0 +1,93 @@
+#include "transfer/classifier.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "voxlume/error.h"
+
+namespace voxlume {
+namespace {
+
+/// The number of the volume that a rule names; -1 for the empty name.
+int volume_number(const std::string& name, std::span<const RuleVolume> volumes) {
+  if (name == "opacity") return kOpacityVolume;
+  for (std::size_t i = 0; i < volumes.size(); ++i)
+    if (volumes[i].name == name) return static_cast<int>(i);
+  return -1;
+}
+
+}  // namespace
+
+Classifier::Classifier(const TransferDescription& transfer, std::span<const RuleVolume> volumes,
+                       std::span<const NamedMaterialDescription> materials)
+    : merge_(transfer.merge), volumes_(volumes.begin(), volumes.end()) {
+  if (transfer.rules.empty()) return;
+  TransferDescription own = transfer;
+  own.rules.clear();
+  own_points_.emplace_back(own);
+  const RuleContext context{*transfer.reference_length_mm, transfer.density_scale, materials};
+  for (std::size_t i = 0; i < transfer.rules.size(); ++i) {
+    const RuleDescription& rule = transfer.rules[i];
+    check_rule(rule, volumes, !transfer.points.empty(), materials, "/transfer/rules/" + std::to_string(i));
+    rules_.emplace_back(rule, volume_number(rule.volume, volumes), volume_number(rule.along, volumes), context);
+  }
+  if (!transfer.points.empty()) {
+    RuleDescription last;
+    last.points = transfer.points;
+    rules_.emplace_back(last, 0, -1, context);
+  }
+  for (const CompiledRule& rule : rules_) rule_views_.push_back(rule.view());
+}
+
+ClassifierView Classifier::view() const {
+  ClassifierView view;
+  view.rules = rule_views_.data();
+  view.rule_count = static_cast<std::int32_t>(rule_views_.size());
+  view.merge = merge_;
+  for (std::size_t i = 0; i < volumes_.size(); ++i) view.volumes[i] = volumes_[i].view;
+  if (has_rules()) view.own_points = own_points_.front().view();
+  return view;
+}
+
+VolumeRange Classifier::range_of(int volume, const VolumeRange (&volumes)[kMostVolumes]) const {
+  if (volume < 0) return {};
+  if (volume != kOpacityVolume) return volumes[volume];
+  const VolumeRange& data = volumes[0];
+  if (data.range.empty()) return {};
+  const TransferFunction& own = own_points_.front();
+  const TransferView view = own.view();
+  // A little wider, as the exponential need not grow with its argument to the last bit.
+  constexpr float kSlack = 1e-6f;
+  VolumeRange out;
+  out.range = {opacity_of(view, own.min_mu_t(data.range.lower, data.range.upper)) - kSlack,
+               opacity_of(view, own.max_mu_t(data.range.lower, data.range.upper)) + kSlack};
+  out.complete = data.complete;
+  return out;
+}
+
+float Classifier::upper_mu_t(const VolumeRange (&volumes)[kMostVolumes]) const {
+  if (!has_rules()) return 0;
+  const auto values = [&](int i) { return range_of(rule_views_[i].volume, volumes); };
+  const auto along = [&](int i) { return range_of(rule_views_[i].along, volumes); };
+  return merged_upper_mu_t([&](int i) { return rules_[i].upper_mu_t(values(i), along(i)); },
+                           [&](int i) { return rules_[i].lower_mu_t(values(i), along(i)) > 0; });
+}
+
+float Classifier::upper_mu_t() const {
+  constexpr float kMost = std::numeric_limits<float>::max();
+  VolumeRange all[kMostVolumes];
+  for (VolumeRange& range : all) range.range = {-kMost, kMost};
+  return upper_mu_t(all);
+}
+
+bool Classifier::emits() const {
+  return std::any_of(rules_.begin(), rules_.end(), [](const CompiledRule& rule) { return rule.emits(); });
+}
+
+bool Classifier::gives_numbers() const {
+  constexpr std::uint32_t kOptics = kGivesExtinction | kGivesColor | kGivesEmission;
+  return std::any_of(rule_views_.begin(), rule_views_.end(),
+                     [](const RuleView& rule) { return (rule.given & ~kOptics) != 0; });
+}
+
+}  // namespace voxlume
