@@ -5,11 +5,10 @@
 #include <type_traits>
 
 #include "base/parallel.h"
+#include "grid/cell_layout.h"
 
 namespace voxlume {
 namespace {
-
-constexpr ValueRange kNoValues{std::numeric_limits<float>::max(), std::numeric_limits<float>::lowest()};
 
 ValueRange joined(ValueRange range, ValueRange other) {
   // Written so that a NaN changes neither bound: where it enters the interpolation, nothing is visible.
@@ -58,59 +57,21 @@ void find_row(const T* voxels, const GridView& grid, const std::int32_t (&first)
   }
 }
 
-// Three nested linear interpolations of floats, each rounding twice.
-ValueRange widened(ValueRange range) {
-  if (range.empty() || range.lower == range.upper) return range;
-  const float slack =
-      8 * std::numeric_limits<float>::epsilon() * std::max(std::abs(range.lower), std::abs(range.upper));
-  return {range.lower - slack, range.upper + slack};
-}
-
-/// Calls visit(i, j, k, count, place) for runs of cells along i that cover the grid, in parallel.
-template <class Visit>
-void each_run(const std::int32_t (&cells)[3], CellOrder order, Visit&& visit) {
-  if (order == CellOrder::kRows) {
-    parallel_for(std::int64_t{cells[1]} * cells[2], 4, [&](std::int64_t row) {
-      visit(0, static_cast<std::int32_t>(row % cells[1]), static_cast<std::int32_t>(row / cells[1]), cells[0],
-            row * cells[0]);
-    });
-    return;
-  }
-  std::int32_t cubes[3];
-  for (int a = 0; a < 3; ++a) cubes[a] = (cells[a] + kCubeSide - 1) / kCubeSide;
-  parallel_for(std::int64_t{cubes[0]} * cubes[1] * cubes[2], 1, [&](std::int64_t cube) {
-    const auto i = static_cast<std::int32_t>(cube % cubes[0]) * kCubeSide;
-    const auto j = static_cast<std::int32_t>(cube / cubes[0] % cubes[1]) * kCubeSide;
-    const auto k = static_cast<std::int32_t>(cube / cubes[0] / cubes[1]) * kCubeSide;
-    for (std::int32_t z = 0; z < std::min(kCubeSide, cells[2] - k); ++z)
-      for (std::int32_t y = 0; y < std::min(kCubeSide, cells[1] - j); ++y)
-        visit(i, j + y, k + z, std::min(kCubeSide, cells[0] - i),
-              cube * kCubeCells + (z * kCubeSide + y) * kCubeSide);
-  });
-}
-
-std::int64_t cell_count(const std::int32_t (&cells)[3], CellOrder order) {
-  if (order == CellOrder::kRows) return std::int64_t{cells[0]} * cells[1] * cells[2];
-  std::int64_t cubes = 1;
-  for (const std::int32_t n : cells) cubes *= (n + kCubeSide - 1) / kCubeSide;
-  return cubes * kCubeCells;
-}
-
 }  // namespace
 
 ValueRangeGrid build_value_ranges(const GridView& grid, int cell_voxels, CellOrder order) {
+  const CellLayout layout(grid, cell_voxels, order);
   ValueRangeGrid out;
-  cell_voxels = std::min(cell_voxels, std::max({grid.size[0], grid.size[1], grid.size[2]}));
-  out.cell_voxels = cell_voxels;
-  for (int a = 0; a < 3; ++a) out.cells[a] = std::max(1, (grid.size[a] - 1 + cell_voxels - 1) / cell_voxels);
-  out.ranges.assign(static_cast<std::size_t>(cell_count(out.cells, order)), kNoValues);
+  out.cell_voxels = layout.cell_voxels;
+  std::copy_n(layout.cells, 3, out.cells);
+  out.ranges.assign(static_cast<std::size_t>(layout.place_count()), kNoValues);
   with_voxels(grid.type, grid.voxels, [&](const auto* voxels) {
-    each_run(out.cells, order,
-             [&](std::int32_t i, std::int32_t j, std::int32_t k, std::int32_t count, std::int64_t place) {
-               ValueRange* run = &out.ranges[place];
-               find_row(voxels, grid, {i, j, k}, cell_voxels, count, run);
-               std::transform(run, run + count, run, widened);
-             });
+    layout.each_run(
+        [&](std::int32_t i, std::int32_t j, std::int32_t k, std::int32_t count, std::int64_t place) {
+          ValueRange* run = &out.ranges[place];
+          find_row(voxels, grid, {i, j, k}, layout.cell_voxels, count, run);
+          std::transform(run, run + count, run, widened);
+        });
   });
   return out;
 }
