@@ -83,7 +83,7 @@ void locate_all(Variant& variant) {
 /// Times updates from another function to the scene's, which differ everywhere something is visible.
 std::vector<double> time_updates(const CompiledScene& scene) {
   const GridView grid = make_grid_view(scene.volume());
-  Accelerator accelerator(grid, accelerator_choice(scene.description().render, grid));
+  Accelerator accelerator(grid, accelerator_choice(scene.description(), grid));
   TransferDescription other = scene.description().transfer;
   other.density_scale *= 0.5;
   const TransferFunction before(other), after(scene.description().transfer);

@@ -123,15 +123,14 @@ CameraPath::Wait CameraPath::end_scattering(const SceneView& scene, const Scatte
   // Matter that is cut away absorbs light that reaches it (only when it blocks light at all).
   if (scene.clip_blocks_light && !scene.clip_world.contains(matter.p_world) && depth_ > 0) return end();
 
-  point_ = matter.scatter;
-  p_world_ = matter.p_world;
+  matter_ = matter;
   radiance_ += throughput_ * matter.emission;
   if (depth_ == 0) {
     out_.alpha = 1;
-    out_.albedo = point_.albedo;
-    out_.normal = point_.normal * scattering.surface_share;
+    out_.albedo = matter.scatter.albedo;
+    out_.normal = matter.scatter.normal * scattering.surface_share;
     first_light_.dense =
-        scene.keeps_parts && classify_mu_t(scene.medium.transfer, query_.value) > scene.dense_mu_t;
+        scene.keeps_parts && extinction_of(scene.medium, query_.p_index, query_.value) > scene.dense_mu_t;
   }
   if (scattered_out(scene)) return end();
 
@@ -140,9 +139,9 @@ CameraPath::Wait CameraPath::end_scattering(const SceneView& scene, const Scatte
   turn_ray_ = scattering.turn_ray;
   meets_rect_ = scattering.turn_meets_rect;
   if (scene.keeps_parts && depth_ == 0)
-    first_light_.fx = unshadowed_shading(scene.lights, point_, -direction_world_, p_world_);
+    first_light_.fx = unshadowed_shading(scene.lights, kernel(scene), matter_.p_world);
   ++counters.scatterings;
-  radiance_ += throughput_ * point_.albedo * scene.ambient;
+  radiance_ += throughput_ * matter_.scatter.albedo * scene.ambient;
   if (!query_.samples_light) return turn(scene, counters);
   --light_samples_left_;
   if (cast(scene, scattering.light, scattering.toward_light, scattering.light_ray, counters)) {
@@ -216,7 +215,7 @@ bool CameraPath::cast(const SceneView& scene, const LightSample& light, const Sc
   if (!(boost > 0)) return false;
   unshadowed_ *= boost;
   if (scene.keeps_parts && depth_ == 0) {
-    first_light_.now = eval_scatter_parts(point_, choice_, -direction_world_, light.wi);
+    first_light_.now = kernel(scene).eval(light.wi);
     first_light_.arriving = light.radiance * (weight / pdf * boost);
   }
   ++counters.shadow_rays;
@@ -230,9 +229,10 @@ CameraPath::Wait CameraPath::next_light_sample(const SceneView& scene, TraceCoun
   while (light_samples_left_ > 0) {
     const auto stratum = static_cast<float>(light_samples_left_--);
     const float u0 = rng_.next(), u1 = rng_.next();
-    const LightSample light = sample_light(scene.lights, p_world_, (stratum + query_.u_pick) / count, u0, u1);
-    const TrackRay ray = ray_from(scene, query_.p_index, p_world_, light.wi, light.distance_mm);
-    if (!cast(scene, light, eval_scatter(point_, choice_, -direction_world_, light.wi), ray, counters))
+    const LightSample light = sample_light(scene.lights, matter_.p_world, (stratum + query_.u_pick) / count, u0, u1);
+    const TrackRay ray = ray_from(scene, query_.p_index, matter_.p_world, light.wi, light.distance_mm);
+    const ScatterParts h = kernel(scene).eval(light.wi);
+    if (!cast(scene, light, {h.diffuse + h.specular + h.phase, h.pdf}, ray, counters))
       continue;
     if (enters()) return Wait::kTransmittance;
     radiance_ += unshadowed_;
@@ -251,7 +251,7 @@ CameraPath::Wait CameraPath::end_shadow_ray(const SceneView& scene, float transm
 
 /// The probability of following the direction that is drawn at the present scattering.
 float CameraPath::flight_share(const SceneView& scene) const noexcept {
-  const bool glossy = choice_.specular > 0 && point_.alpha < kGlossyAlpha;
+  const bool glossy = choice_.specular > 0 && matter_.scatter.alpha < kGlossyAlpha;
   const bool needed = glossy || scene.lights.has_environment || scene.light_sampling != LightSampling::kMis;
   return scatters_last(scene) && !needed ? kLastFlightShare : 1.0f;
 }
@@ -276,11 +276,11 @@ CameraPath::Wait CameraPath::turn(const SceneView& scene, TraceCounters& counter
   const float share = flight_share(scene);
   if (share < 1 && rng_.next() >= share) return end();
   if (scene.keeps_parts && depth_ == 0) {
-    first_light_.now = eval_scatter_parts(point_, choice_, -direction_world_, turn_.wi);
+    first_light_.now = kernel(scene).eval(turn_.wi);
     first_light_.weight = 1 / (turn_.pdf * share);
   }
   throughput_ *= turn_.value / (turn_.pdf * share);
-  origin_world_ = p_world_;
+  origin_world_ = matter_.p_world;
   direction_world_ = turn_.wi;
   direction_pdf_ = turn_.pdf;
   hit_samples_ = static_cast<float>(light_samples(scene)) / share;

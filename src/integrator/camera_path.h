@@ -70,6 +70,9 @@ class CameraPath {
   Wait reach_lights(const SceneView& scene, TraceCounters& counters) noexcept;
   bool survives() noexcept;
   float shadow_ray_boost(const SceneView& scene) noexcept;
+  ScatterKernel kernel(const SceneView& scene) const noexcept {
+    return {scene, matter_, choice_, -direction_world_};
+  }
 
   Rng rng_;
   TrackRay ray_;
@@ -80,12 +83,11 @@ class CameraPath {
   float direction_pdf_ = 0;  ///< with which the direction was sampled; 0 for the camera's
   int depth_ = 0;            ///< scatterings so far
   ScatteringQuery query_{};  ///< of the present scattering, as what follows
-  ScatterPoint point_{};
+  MatterPoint matter_{};
   ScatterChoice choice_{};
   ScatterSample turn_{};
   TrackRay turn_ray_;
   bool meets_rect_ = false;  ///< whether any rect light shines against it
-  Vec3f p_world_;
   int light_samples_left_ = 0;
   /// Light samples taken where the present direction was drawn, over the probability of following that.
   float hit_samples_ = 1;

@@ -168,10 +168,12 @@ class LaneTracer {
   }
 
   void shade() {
-    fill_scatterings_(scene_, batch_);
+    if (!scene_.shades_singly) fill_scatterings_(scene_, batch_);
     for (int i = 0; i < batch_.count; ++i) {
       const int path = collided_[i];
-      const Wait wait = paths_[path].end_scattering(scene_, batch_.at(scene_, i), counters_);
+      const Scattering scattering =
+          scene_.shades_singly ? scatter_at(scene_, paths_[path].query()) : batch_.at(scene_, i);
+      const Wait wait = paths_[path].end_scattering(scene_, scattering, counters_);
       if (wait == Wait::kNothing)
         finish(path);
       else

@@ -1,5 +1,6 @@
 #include "integrator/scatter_point.h"
 
+#include "grid/label_surface.h"
 #include "material/surface_share.h"
 
 namespace voxlume {
@@ -36,10 +37,47 @@ Vec3f face_normals(const Box3f& clip_world, const GridView& grid, Vec3f p_index,
   return sum;
 }
 
+namespace {
+
+/// What the transfer function or the rules say.
+Classified classified(const Medium& medium, Vec3f p_index, float value) noexcept {
+  if (medium.rules.rule_count > 0) return classify(medium.rules, p_index, value);
+  Classified out;
+  out.optics = classify(medium.transfer, value);
+  return out;
+}
+
+/// Minus the data's gradient over its usual magnitude; at borders of labels their normal takes its place.
+Vec3f data_normal(const SceneView& scene, const Classified& matter, Vec3f p_index) noexcept {
+  if (scene.medium.rules.rule_count == 0)
+    return sample_gradient(scene.medium.grid, p_index) * -scene.scattering.inverse_gradient_scale;
+  const RuleVolumeView& surface = scene.medium.rules.volumes[matter.surface_volume];
+  const Vec3f of_data =
+      sample_gradient(surface.grid, surface.index_of(p_index)) * -surface.inverse_gradient_scale;
+  if (matter.label_volume < 0) return of_data;
+  const RuleVolumeView& labels = scene.medium.rules.volumes[matter.label_volume];
+  const Vec3f of_labels = label_normal(labels.grid, labels.index_of(p_index));
+  return of_labels + of_data * (1.0f - std::min(length(of_labels), 1.0f));
+}
+
+ParticlePoint particles_of(const SceneView& scene, const Classified& matter,
+                           const ScatterPoint& scatter) noexcept {
+  const Material& material = scene.scattering.materials[matter.material + 1];
+  ParticlePoint out = particle_point(material, scatter.normal, scatter.p_brdf, scatter.albedo);
+  out.alpha = scatter.alpha;
+  out.f0 = scatter.f0;
+  out.g = scatter.g;
+  out.metallic = matter.number_or(Number::kMetallic, material.metallic);
+  return out;
+}
+
+}  // namespace
+
 MatterPoint matter_at(const SceneView& scene, Vec3f p_index, float value) noexcept {
   const GridView& grid = scene.medium.grid;
   const ScatteringView& scattering = scene.scattering;
-  const Coefficients optics = classify(scene.medium.transfer, value);
+  const Classified matter = classified(scene.medium, p_index, value);
+  const Coefficients& optics = matter.optics;
   const Vec3f p_world = grid.world_from_index.point(p_index);
 
   MatterPoint point;
@@ -50,21 +88,27 @@ MatterPoint matter_at(const SceneView& scene, Vec3f p_index, float value) noexce
   scatter.p_brdf = 0;
   scatter.albedo =
       scene.labels.color_count ? labelled_albedo(scene.labels, p_world, optics.albedo) : optics.albedo;
-  scatter.g = scattering.g;
-  scatter.alpha = scattering.alpha;
-  scatter.f0 = scattering.f0;
-  if (scattering.shading == Shading::kPhase) return point;
-
-  const Vec3f outward = sample_gradient(grid, p_index) * -scattering.inverse_gradient_scale +
-                        face_normals(scene.clip_world, grid, p_index, p_world);
-  const float magnitude = length(outward);
-  if (!(magnitude > 1e-6f) || !std::isfinite(magnitude)) return point;
-  scatter.normal = outward / magnitude;
-  scatter.p_brdf =
-      scattering.shading == Shading::kBrdf
-          ? 1.0f
-          : surface_share(scattering.surface_share, scattering.gradient_factor, scattering.opacity_modulated,
-                          opacity_of(scene.medium.transfer, optics.mu_t), magnitude);
+  const float roughness = matter.number_or(Number::kRoughness, -1);
+  const float specular = matter.number_or(Number::kSpecular, -1);
+  scatter.g = matter.number_or(Number::kAnisotropy, scattering.g);
+  scatter.alpha = roughness >= 0 ? roughness * roughness : scattering.alpha;
+  scatter.f0 = specular >= 0 ? kMostDielectricF0 * specular : scattering.f0;
+  if (scattering.shading != Shading::kPhase) {
+    const Vec3f outward =
+        data_normal(scene, matter, p_index) + face_normals(scene.clip_world, grid, p_index, p_world);
+    const float magnitude = length(outward);
+    if (magnitude > 1e-6f && std::isfinite(magnitude)) {
+      scatter.normal = outward / magnitude;
+      const float share =
+          scattering.shading == Shading::kBrdf
+              ? 1.0f
+              : surface_share(scattering.surface_share, scattering.gradient_factor,
+                              scattering.opacity_modulated,
+                              opacity_of(scene.medium.transfer, optics.mu_t), magnitude);
+      scatter.p_brdf = share * matter.number_or(Number::kSurfaceShare, 1);
+    }
+  }
+  if (scattering.particles) point.particles = particles_of(scene, matter, scatter);
   return point;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include "integrator/scene_view.h"
+#include "material/particles.h"
 #include "material/scatter.h"
 
 namespace voxlume {
@@ -7,13 +8,15 @@ namespace voxlume {
 /// Matter at a real collision.
 struct MatterPoint {
   ScatterPoint scatter;  ///< surface share and normal included
+  ParticlePoint particles;  ///< the same as particles, where the scene shades those
   Vec3f emission;        ///< L_e
   Vec3f p_world;         ///< LPS mm
 };
 
 /// Classifies the data `value` at p_index and finds its surface: the normal is the outward data gradient, to
 /// which the faces of the visible region (clip box and the volume's own border) are added as far as one voxel
-/// deep, so that a cut is shaded as a surface. Without a gradient the surface share is 0.
+/// deep, so that a cut is shaded as a surface. Without a gradient the surface share is 0. Under rules the
+/// gradient is that of the volume that decides about the extinction, and borders of labels are surfaces.
 MatterPoint matter_at(const SceneView& scene, Vec3f p_index, float value) noexcept;
 
 /// The albedo that the label at p_world [LPS mm] gives matter of `albedo`.

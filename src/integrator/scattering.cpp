@@ -17,22 +17,38 @@ Scattering scatter_at(const SceneView& scene, const ScatteringQuery& query) noex
   // Exposure Render decides at every event whether it is a surface or a medium (xu2024 eq. 4, without the
   // division by the probability of the choice, which would double the scattered energy).
   if (scene.scattering.shading == Shading::kExposureRender)
-    point.p_brdf = query.u_surface < point.p_brdf ? 1.0f : 0.0f;
-  out.choice = scatter_choice(point, query.wo);
+    out.matter.particles.p_surface = point.p_brdf = query.u_surface < point.p_brdf ? 1.0f : 0.0f;
+  const ScatterKernel kernel(scene, out.matter, query.wo);
+  out.choice = kernel.choice();
   const Vec3f p_world = out.matter.p_world;
   if (query.samples_light) {
     out.light = sample_light(scene.lights, p_world, query.u_light, query.light.u0, query.light.u1);
-    out.toward_light = eval_scatter(point, out.choice, query.wo, out.light.wi);
+    const ScatterParts parts = kernel.eval(out.light.wi);
+    out.toward_light = {parts.diffuse + parts.specular + parts.phase, parts.pdf};
     out.light_ray = ray_from(scene, query.p_index, p_world, out.light.wi, out.light.distance_mm);
   }
   if (query.turns) {
-    out.turn =
-        sample_scatter(point, out.choice, query.wo, query.u_lobe, query.direction.u0, query.direction.u1);
+    out.turn = kernel.sample(query.u_lobe, query.direction.u0, query.direction.u1);
     out.turn_ray =
         ray_from(scene, query.p_index, p_world, out.turn.wi, std::numeric_limits<float>::infinity());
     out.turn_meets_rect = meets_rect_light(scene.lights, p_world, out.turn.wi);
   }
   return out;
+}
+
+ScatterKernel::Albedo ScatterKernel::albedo() const noexcept {
+  if (by_particles_) {
+    const ParticlePoint& p = matter_.particles;
+    const ParticleShares shares = particle_shares(p);
+    const Vec3f diffuse = p.color * (shares.rest * (1 - particles_.fresnel) + shares.phase);
+    return {diffuse, max(particle_albedo(p, wo_) - diffuse, Vec3f(0))};
+  }
+  const ScatterPoint& point = matter_.scatter;
+  SurfaceAlbedo surface{Vec3f(0), 0};
+  if (point.p_brdf > 0)
+    surface = estimate_albedo(surface_lobe(point), std::min(std::abs(dot(point.normal, wo_)), 1.0f));
+  return {surface.diffuse * point.p_brdf + point.albedo * (1 - point.p_brdf),
+          Vec3f(surface.specular * point.p_brdf)};
 }
 
 void ScatteringBatch::add(const ScatteringQuery& query) noexcept {
@@ -59,7 +75,7 @@ Scattering ScatteringBatch::at(const SceneView& scene, int i) const noexcept {
   const auto ray = [&](const Column3& direction, const Column<float>& near, const Column<float>& far) {
     return TrackRay{{vec(p_index), vec(direction)}, near[i], far[i]};
   };
-  return {{{vec(normal), p_brdf[i], vec(albedo), s.g, s.alpha, s.f0}, vec(emission), vec(p_world)},
+  return {{{vec(normal), p_brdf[i], vec(albedo), s.g, s.alpha, s.f0}, {}, vec(emission), vec(p_world)},
           surface_share[i],
           {specular[i], surface[i], any[i]},
           {vec(light_wi), light_mm[i], vec(light_radiance), light_pdf[i], light_delta[i] != 0},

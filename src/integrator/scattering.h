@@ -9,6 +9,49 @@
 
 namespace voxlume {
 
+/// How matter at a point scatters light that leaves along wo, by the model that the scene shades.
+class ScatterKernel {
+ public:
+  /// `matter` must outlive this.
+  ScatterKernel(const SceneView& scene, const MatterPoint& matter, Vec3f wo) noexcept
+      : matter_(matter), wo_(wo), by_particles_(scene.scattering.particles) {
+    if (by_particles_) {
+      particles_ = particle_choice(matter.particles, wo);
+      choice_ = {particles_.coat, particles_.diffuse, particles_.any};
+    } else {
+      choice_ = scatter_choice(matter.scatter, wo);
+    }
+  }
+  /// The same with a choice that was made before; particles make theirs again.
+  ScatterKernel(const SceneView& scene, const MatterPoint& matter, const ScatterChoice& choice,
+                Vec3f wo) noexcept
+      : matter_(matter), wo_(wo), by_particles_(scene.scattering.particles), choice_(choice) {
+    if (by_particles_) particles_ = particle_choice(matter.particles, wo);
+  }
+
+  const ScatterChoice& choice() const noexcept { return choice_; }
+  ScatterParts eval(Vec3f wi) const noexcept {
+    return by_particles_ ? eval_particles(matter_.particles, particles_, wo_, wi)
+                         : eval_scatter_parts(matter_.scatter, choice_, wo_, wi);
+  }
+  ScatterSample sample(float u_lobe, float u0, float u1) const noexcept {
+    return by_particles_ ? sample_particles(matter_.particles, particles_, wo_, u_lobe, u0, u1)
+                         : sample_scatter(matter_.scatter, choice_, wo_, u_lobe, u0, u1);
+  }
+  /// What of light from all around comes back: phase function and diffuse lobe, and the rest.
+  struct Albedo {
+    Vec3f diffuse, specular;
+  };
+  Albedo albedo() const noexcept;
+
+ private:
+  const MatterPoint& matter_;
+  Vec3f wo_;
+  bool by_particles_;
+  ScatterChoice choice_;
+  ParticleChoice particles_;
+};
+
 /// A real collision, and numbers in [0, 1) for what is drawn there.
 struct ScatteringQuery {
   Vec3f p_index;

@@ -3,6 +3,7 @@
 
 #include "camera/camera.h"
 #include "light/lights_view.h"
+#include "material/material.h"
 #include "tracking/estimators.h"
 #include "tracking/lanes.h"
 #include "tracking/medium.h"
@@ -18,7 +19,10 @@ struct LabelsView {
   float strength = 1;
 };
 
-/// How matter scatters, everywhere alike.
+/// F0 of a dielectric whose `specular` is 1.
+inline constexpr float kMostDielectricF0 = 0.08f;
+
+/// How matter scatters where no rule says otherwise.
 struct ScatteringView {
   Shading shading = Shading::kCoexistence;
   SurfaceShareForm surface_share = SurfaceShareForm::kHybrid;
@@ -26,6 +30,8 @@ struct ScatteringView {
   bool opacity_modulated = true;
   float g = 0, alpha = 0.16f, f0 = 0.04f;
   float inverse_gradient_scale = 1;  ///< 1 / 99.9th percentile of the gradient magnitude [mm per data unit]
+  bool particles = false;            ///< normalised lobes (material/particles.h), else the reciprocal BRDF
+  const Material* materials = nullptr;  ///< the scene's own, then those that rules number from 0
 };
 
 enum class LightSampling { kMis, kLight, kDirection };
@@ -58,6 +64,7 @@ struct SceneView {
   float shadow_roulette = 0;       ///< times the path's first shadow ray; 0: every shadow ray is cast
   LightSampling light_sampling = LightSampling::kMis;
   bool matter_emits = false;
+  bool shades_singly = false;  ///< matter is not everywhere alike: shaded by scalar code
   bool keeps_parts = false;  ///< paths keep their RadianceParts
   float dense_mu_t = 0;      ///< [1/mm]; matter that is denser stands for the pixel (xu2024 5.2)
   /// Whether a flight after the last scattering can meet anything that emits.

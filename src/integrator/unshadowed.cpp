@@ -34,21 +34,16 @@ Glance glance_at(const Light& light, Vec3f p_world) noexcept {
 
 }  // namespace
 
-UnshadowedShading unshadowed_shading(const LightsView& lights, const ScatterPoint& point, Vec3f wo,
+UnshadowedShading unshadowed_shading(const LightsView& lights, const ScatterKernel& kernel,
                                      Vec3f p_world) noexcept {
-  // What comes back of light from all around.
-  SurfaceAlbedo surface{Vec3f(0), 0};
-  if (point.p_brdf > 0)
-    surface = estimate_albedo(surface_lobe(point), std::min(std::abs(dot(point.normal, wo)), 1.0f));
-  const UnshadowedShading albedo{surface.diffuse * point.p_brdf + point.albedo * (1 - point.p_brdf),
-                                 Vec3f(surface.specular * point.p_brdf)};
+  const ScatterKernel::Albedo around = kernel.albedo();
+  const UnshadowedShading albedo{around.diffuse, around.specular};
   float irradiances = lights.has_environment ? kPi * luminance(lights.environment_mean) : 0.0f;
   Vec3f diffuse = albedo.diffuse * irradiances, specular = albedo.specular * irradiances;
-  const ScatterChoice choice = scatter_choice(point, wo);
   for (int i = 0; i < lights.light_count; ++i) {
     const Glance glance = glance_at(lights.lights[i], p_world);
     if (!(glance.irradiance > 0)) continue;
-    const ScatterParts h = eval_scatter_parts(point, choice, wo, glance.wi);
+    const ScatterParts h = kernel.eval(glance.wi);
     diffuse += (h.diffuse + h.phase) * (kPi * glance.irradiance);
     specular += h.specular * (kPi * glance.irradiance);
     irradiances += glance.irradiance;

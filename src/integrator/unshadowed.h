@@ -1,6 +1,6 @@
 #pragma once
 #include "light/lights_view.h"
-#include "material/scatter.h"
+#include "integrator/scattering.h"
 
 namespace voxlume {
 
@@ -13,7 +13,7 @@ struct UnshadowedShading {
 /// pi times the mean of h over the lights, each weighted by the luminance of the irradiance that it would
 /// give at `p_world` and seen in the direction of its centre; the environment counts by its mean, from all
 /// around. Where there is no light it is the albedo.
-UnshadowedShading unshadowed_shading(const LightsView& lights, const ScatterPoint& point, Vec3f wo,
+UnshadowedShading unshadowed_shading(const LightsView& lights, const ScatterKernel& kernel,
                                      Vec3f p_world) noexcept;
 
 }  // namespace voxlume

@@ -1,12 +1,10 @@
 #include "scene/compile.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <tuple>
 
-#include "base/parallel.h"
 #include "camera/camera.h"
 #include "grid/grid_view.h"
 #include "image_io/image_io.h"
@@ -40,21 +38,6 @@ SimdTarget simd_target(const std::string& name) {
               "this machine has no \"" + name + "\"; available: " + available);
 }
 
-/// Throws unless every finite voxel is a whole number (NaN counts as background).
-void check_whole_numbers(const GridView& grid, const std::string& path) {
-  std::atomic<bool> fractions{false};
-  with_voxels(grid.type, grid.voxels, [&](const auto* voxels) {
-    parallel_for(grid.size[2], 1, [&](std::int64_t k) {
-      for (std::int64_t i = k * grid.stride_k; i < (k + 1) * grid.stride_k; ++i) {
-        const auto v = static_cast<double>(voxels[i]);
-        if (std::isfinite(v) && v != std::floor(v)) fractions = true;
-      }
-    });
-  });
-  if (fractions)
-    throw Error(ErrorCode::kBadFormat, path, "expected a label volume of whole numbers, found fractions");
-}
-
 /// A label volume and its colours, read and checked.
 struct LabelSet {
   Volume volume;
@@ -75,6 +58,15 @@ LabelSet read_labels(const LabelsDescription& labels, const Double3& origin_mm) 
   return out;
 }
 
+/// Throws where matter of greatest extinction mu_t [1/mm] cannot be tracked through.
+void check_depth(float mu_t, const Volume& volume) {
+  const double voxel_depth = double{mu_t} * make_grid_view(volume).step_mm;
+  if (voxel_depth > kMaxVoxelDepth)
+    throw Error(ErrorCode::kBadParameter, "/transfer",
+                "its densest matter has an optical depth of " + std::to_string(voxel_depth) +
+                    " in one voxel; expected at most 100000");
+}
+
 /// All that the choice of an accelerator depends on besides the volume.
 auto accelerator_fields(const RenderDescription& render) {
   return std::tie(render.accelerator, render.macrocell_voxels, render.hierarchy_rule, render.lookup_cost,
@@ -91,7 +83,8 @@ LightSampling light_sampling(const std::string& name) {
 
 }  // namespace
 
-AcceleratorChoice accelerator_choice(const RenderDescription& render, const GridView& grid) {
+AcceleratorChoice accelerator_choice(const SceneDescription& scene, const GridView& grid) {
+  const RenderDescription& render = scene.render;
   AcceleratorChoice choice;
   choice.cell_voxels = render.macrocell_voxels;
   choice.costs.lookup = static_cast<float>(render.lookup_cost);
@@ -116,6 +109,14 @@ AcceleratorChoice accelerator_choice(const RenderDescription& render, const Grid
     throw Error(ErrorCode::kBadParameter, "/render/hierarchy_rule",
                 "unknown \"" + render.hierarchy_rule + "\"; expected cost or thresholds");
   }
+  if (!scene.transfer.rules.empty()) {
+    if (choice.kind != AcceleratorKind::kMacrocell && choice.kind != AcceleratorKind::kHierarchy)
+      throw Error(ErrorCode::kUnsupported, "/render/accelerator",
+                  "rules need auto, hierarchy (by cost), macrocell or none");
+    if (!trackers(render).is_default())
+      throw Error(ErrorCode::kUnsupported, "/render/transmittance",
+                  "rules need transmittance ratio and free_flight delta");
+  }
   // The estimators that need the cells' minima.
   if (!trackers(render).is_default()) {
     if (render.accelerator == "auto") choice.kind = AcceleratorKind::kMacrocell;
@@ -133,13 +134,15 @@ struct CompiledScene::Parts {
   std::optional<TransferFunction> transfer;
   std::optional<Accelerator> accelerator;
   std::optional<LabelSet> labels;
+  std::optional<RuleVolumes> rule_volumes;
+  std::optional<Classifier> classifier;
+  std::optional<Materials> materials;
 };
 
 CompiledScene::CompiledScene(SceneDescription description, Volume volume, const VolumeStatistics& statistics)
     : volume_(std::move(volume)),
       origin_mm_(visible_sphere(volume_, std::nullopt).center_mm),
-      values_{statistics.lower, statistics.upper},
-      gradient_p999_(statistics.gradient_p999) {
+      statistics_{statistics.lower, statistics.upper, statistics.nonfinite_voxels, statistics.gradient_p999, {}} {
   if (!std::isfinite(statistics.lower) || !std::isfinite(statistics.upper))
     throw Error(ErrorCode::kUnsupported, description.volume.path,
                 "its values exceed what a 32-bit float holds, in which voxlume computes; rescale them");
@@ -164,7 +167,7 @@ void CompiledScene::compile(SceneDescription description, bool everything) {
   compile_lights(local, everything, camera, sphere);
   view_.camera = camera;
   put_medium(parts, local);
-  put_scattering(description.material);
+  put_scattering(parts, description);
   put_image(description);
   description_ = std::move(description);
 }
@@ -176,16 +179,13 @@ CompiledScene::Parts CompiledScene::compile_parts(const SceneDescription& descri
   Parts parts;
   if (everything || !(description.transfer == description_.transfer)) {
     parts.transfer.emplace(description.transfer);
-    const double voxel_depth = double{parts.transfer->max_mu_t()} * make_grid_view(volume_).step_mm;
-    if (voxel_depth > kMaxVoxelDepth)
-      throw Error(ErrorCode::kBadParameter, "/transfer",
-                  "its densest matter has an optical depth of " + std::to_string(voxel_depth) +
-                      " in one voxel; expected at most 100000");
+    check_depth(parts.transfer->max_mu_t(), volume_);
   }
-  if (everything || accelerator_fields(render) != accelerator_fields(description_.render)) {
-    const GridView grid = make_grid_view(volume_);
-    parts.accelerator.emplace(grid, accelerator_choice(render, grid));
-  }
+  const GridView grid = make_grid_view(volume_);
+  const AcceleratorChoice accelerator = accelerator_choice(description, grid);
+  if (everything || accelerator_fields(render) != accelerator_fields(description_.render))
+    parts.accelerator.emplace(grid, accelerator);
+  compile_rules(description, everything, parts);
   const auto& labels = description.labels;
   if (labels && (everything || !description_.labels || labels->path != description_.labels->path ||
                  labels->names != description_.labels->names))
@@ -193,10 +193,30 @@ CompiledScene::Parts CompiledScene::compile_parts(const SceneDescription& descri
   return parts;
 }
 
+void CompiledScene::compile_rules(const SceneDescription& description, bool everything, Parts& parts) const {
+  const bool new_volumes = everything || !(description.proxies == description_.proxies);
+  const bool new_materials = everything || !(description.materials == description_.materials) ||
+                             !(description.material == description_.material);
+  if (new_volumes) parts.rule_volumes.emplace(volume_, statistics_, description.proxies, origin_mm_);
+  if (new_materials) parts.materials.emplace(description.material, description.materials);
+  if (!new_volumes && !new_materials && description.transfer == description_.transfer) return;
+  const RuleVolumes& volumes = parts.rule_volumes ? *parts.rule_volumes : *rule_volumes_;
+  const Materials& materials = parts.materials ? *parts.materials : *materials_;
+  parts.classifier.emplace(description.transfer, volumes.volumes(), materials.named());
+  if (parts.classifier->has_rules()) check_depth(parts.classifier->upper_mu_t(), volume_);
+  const MaterialDescription& material = description.material;
+  if (material.self_occlusion < 1 && !trackers(description.render).is_default())
+    throw Error(ErrorCode::kUnsupported, "/material/self_occlusion",
+                "below 1 needs transmittance ratio and free_flight delta");
+}
+
 void CompiledScene::compile_lights(const SceneDescription& local, bool everything, const CameraView& camera,
                                    const SceneSphere& sphere) {
   const EnvironmentDescription& environment = *local.environment;
-  const LightSampling sampling = light_sampling(local.render.light_sampling);
+  // Directions find light through the physical extinction, which is not what shadow rays meet then.
+  const LightSampling sampling = local.material.self_occlusion < 1
+                                     ? LightSampling::kLight
+                                     : light_sampling(local.render.light_sampling);
   // The tables of the environment's picture are what takes long.
   const bool same_tables = !everything && sampling == view_.light_sampling &&
                            environment.image == description_.environment->image &&
@@ -218,17 +238,27 @@ void CompiledScene::compile_lights(const SceneDescription& local, bool everythin
 }
 
 void CompiledScene::put_medium(Parts& parts, const SceneDescription& local) {
-  const bool new_majorants = parts.transfer || parts.accelerator;
+  const bool new_majorants = parts.transfer || parts.accelerator || parts.classifier;
   if (parts.transfer) transfer_ = std::move(parts.transfer);
   if (parts.accelerator) accelerator_.emplace(std::move(*parts.accelerator));
+  if (parts.rule_volumes) {
+    rule_volumes_ = std::move(parts.rule_volumes);
+    accelerator_->forget_volumes();
+    warnings_.insert(warnings_.end(), rule_volumes_->warnings().begin(), rule_volumes_->warnings().end());
+  }
+  if (parts.classifier) classifier_ = std::move(parts.classifier);
   if (new_majorants) {
     const auto start = std::chrono::steady_clock::now();
-    accelerator_->update(*transfer_);
+    if (classifier_->has_rules())
+      accelerator_->update(make_grid_view(moved_to_origin(volume_, origin_mm_)), *classifier_);
+    else
+      accelerator_->update(*transfer_);
     majorant_build_ms_ =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     view_.medium = {make_grid_view(moved_to_origin(volume_, origin_mm_)), transfer_->view(),
-                    accelerator_->view()};
+                    accelerator_->view(), classifier_->view(), 1};
   }
+  view_.medium.shadow_extinction = static_cast<float>(local.material.self_occlusion);
   view_.simd = simd_target(local.render.simd);
   view_.trackers = trackers(local.render);
   if (!view_.trackers.is_default() || !vector_tracker(view_.simd, view_.medium))
@@ -252,18 +282,30 @@ void CompiledScene::put_medium(Parts& parts, const SceneDescription& local) {
   if (local.labels) view_.labels.strength = static_cast<float>(local.labels->strength);
 }
 
-void CompiledScene::put_scattering(const MaterialDescription& material) {
+float CompiledScene::max_mu_t() const {
+  return classifier_->has_rules() ? classifier_->upper_mu_t()
+                                  : transfer_->max_mu_t(statistics_.lower, statistics_.upper);
+}
+
+void CompiledScene::put_scattering(Parts& parts, const SceneDescription& description) {
+  const MaterialDescription& material = description.material;
+  if (parts.materials) materials_ = std::move(parts.materials);
   ScatteringView& out = view_.scattering;
+  out.particles = material.lobes == LobeModel::kParticles ||
+                  (material.lobes == LobeModel::kAuto &&
+                   (!description.materials.empty() || classifier_->gives_numbers()));
+  out.materials = materials_->views();
+  view_.shades_singly = out.particles || classifier_->has_rules();
   out.shading = material.shading;
   out.surface_share = material.surface_share;
   out.gradient_factor = static_cast<float>(material.gradient_factor);
   out.opacity_modulated = material.opacity_modulated;
   out.g = static_cast<float>(material.anisotropy);
   out.alpha = static_cast<float>(material.roughness * material.roughness);
-  out.f0 = static_cast<float>(0.08 * material.specular);
-  out.inverse_gradient_scale = 1.0f / gradient_p999_;
+  out.f0 = kMostDielectricF0 * static_cast<float>(material.specular);
+  out.inverse_gradient_scale = 1.0f / statistics_.gradient_p999;
   // What stands for a pixel has at least a quarter of the greatest extinction in the volume (xu2024 5.2).
-  view_.dense_mu_t = 0.25f * transfer_->max_mu_t(values_.lower, values_.upper);
+  view_.dense_mu_t = 0.25f * max_mu_t();
 }
 
 void CompiledScene::put_image(const SceneDescription& description) {
@@ -281,7 +323,7 @@ void CompiledScene::put_image(const SceneDescription& description) {
   view_.sampler = render.sampler;
   view_.light_samples = render.light_samples;
   view_.shadow_roulette = static_cast<float>(render.shadow_roulette);
-  view_.matter_emits = transfer_->emits();
+  view_.matter_emits = classifier_->has_rules() ? classifier_->emits() : transfer_->emits();
   view_.last_flight_collects =
       view_.matter_emits || (view_.light_sampling != LightSampling::kLight &&
                              (view_.lights.has_environment || view_.lights.rect_count > 0));
@@ -296,7 +338,7 @@ void CompiledScene::warn_of_values(const VolumeStatistics& statistics) {
   if (statistics.nonfinite_voxels > 0)
     warnings_.push_back(std::to_string(statistics.nonfinite_voxels) +
                         " voxels are not finite and stay transparent");
-  if (!(transfer_->max_mu_t(statistics.lower, statistics.upper) > 0))
+  if (!(max_mu_t() > 0))
     warnings_.push_back("nothing is visible: the transfer function is 0 for every value of the volume");
 }
 

@@ -9,14 +9,17 @@
 #include "integrator/scene_view.h"
 #include "light/compile_lights.h"
 #include "scene/labels.h"
+#include "scene/materials.h"
+#include "scene/rule_volumes.h"
 #include "transfer/transfer_function.h"
 #include "voxlume/scene.h"
 #include "voxlume/volume.h"
 
 namespace voxlume {
 
-/// The structure that a scene asks for. Throws Error kBadParameter for words it does not know.
-AcceleratorChoice accelerator_choice(const RenderDescription& render, const GridView& grid);
+/// The structure that a scene asks for. Throws Error kBadParameter for words it does not know, kUnsupported for
+/// what does not go together.
+AcceleratorChoice accelerator_choice(const SceneDescription& scene, const GridView& grid);
 
 /// A scene ready to trace: owns the voxels and every table that view() points to. World coordinates of view()
 /// are LPS mm from the volume's centre.
@@ -51,23 +54,27 @@ class CompiledScene {
   struct Parts;
 
   void compile(SceneDescription description, bool everything);
+  void compile_rules(const SceneDescription& description, bool everything, Parts& parts) const;
+  float max_mu_t() const;
   Parts compile_parts(const SceneDescription& description, bool everything) const;
   void compile_lights(const SceneDescription& local, bool everything, const CameraView& camera,
                       const SceneSphere& sphere);
   void put_medium(Parts& parts, const SceneDescription& local);
-  void put_scattering(const MaterialDescription& material);
+  void put_scattering(Parts& parts, const SceneDescription& description);
   void put_image(const SceneDescription& description);
   void warn_of_values(const VolumeStatistics& statistics);
 
   SceneDescription description_;
   Volume volume_;
   Double3 origin_mm_;  ///< the volume's centre
-  ValueRange values_;  ///< of the whole volume
-  float gradient_p999_;
+  VolumeStatistics statistics_;  ///< without the histogram
   std::optional<Volume> label_volume_;
   std::optional<LabelTable> label_table_;
   std::vector<std::string> warnings_;
   std::optional<TransferFunction> transfer_;
+  std::optional<RuleVolumes> rule_volumes_;
+  std::optional<Materials> materials_;
+  std::optional<Classifier> classifier_;
   std::optional<Accelerator> accelerator_;
   std::optional<Lights> lights_;
   double majorant_build_ms_ = 0;

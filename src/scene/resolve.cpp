@@ -78,10 +78,11 @@ SceneDescription resolve(const SceneDescription& scene, const Volume& volume,
                          const VolumeStatistics& statistics) {
   SceneDescription out = scene;
   TransferDescription& transfer = out.transfer;
-  const bool own_points = !transfer.points.empty();
+  // Rules do without points of the function's own.
+  const bool needs_points = transfer.points.empty() && (transfer.rules.empty() || !transfer.preset.empty());
   const Preset& preset =
       transfer.preset.empty() ? automatic_preset(volume, statistics) : find_preset(transfer.preset);
-  if (!own_points) {
+  if (needs_points) {
     transfer.points = preset.points(statistics);
     transfer.preset = preset.name;
   }

@@ -125,7 +125,8 @@ std::string scene_schema() {
   OrderedJson scene = struct_schema<SceneDescription>(definitions);
   scene["properties"]["$schema"] = {{"description", "Address of this schema, for editors."},
                                     {"type", "string"}};
-  definitions["TransferPoint"]["not"] = {{"required", {"opacity", "mu_t_per_mm"}}};
+  for (const char* const name : {"TransferPoint", "NamedMaterial"})
+    definitions[name]["not"] = {{"required", {"opacity", "mu_t_per_mm"}}};
   root.update(scene);
   root["$defs"] = definitions;
   return print_json(root);

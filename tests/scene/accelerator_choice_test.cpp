@@ -20,7 +20,9 @@ AcceleratorChoice choice(const std::string& accelerator, const std::string& rule
   grid.size[0] = 10;
   grid.size[1] = 40;
   grid.size[2] = 20;
-  return accelerator_choice(render, grid);
+  SceneDescription scene;
+  scene.render = render;
+  return accelerator_choice(scene, grid);
 }
 
 TEST(AcceleratorChoice, FollowsTheScene) {

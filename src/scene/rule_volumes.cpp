@@ -1,0 +1,154 @@
+#include "scene/rule_volumes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "grid/derive.h"
+#include "scene/open_volume.h"
+#include "scene/recenter.h"
+#include "voxlume/error.h"
+
+namespace voxlume {
+namespace {
+
+/// Beyond this, floats are no longer every whole number.
+constexpr float kMostLabel = 1 << 24;
+
+[[noreturn]] void refuse(const std::string& where, const std::string& message) {
+  throw Error(ErrorCode::kBadParameter, where, message);
+}
+
+Affinef composed(const Affinef& outer, const Affinef& inner) {
+  const Affined o(outer), i(inner);
+  return Affinef(
+      Affined(o.vector(i.column_x), o.vector(i.column_y), o.vector(i.column_z), o.point(i.translation)));
+}
+
+bool same_grid(const GridView& a, const GridView& b) {
+  const auto same = [](Vec3f x, Vec3f y) { return x == y; };
+  const Affinef &p = a.world_from_index, &q = b.world_from_index;
+  return std::equal(a.size, a.size + 3, b.size) && same(p.column_x, q.column_x) &&
+         same(p.column_y, q.column_y) && same(p.column_z, q.column_z) && same(p.translation, q.translation);
+}
+
+/// Whether every point of the main volume is inside the proxy's grid, rounding aside.
+bool covers(const RuleVolumeView& proxy, const GridView& main) {
+  if (proxy.is_main_grid) return true;
+  const Box3f domain = main.index_box(), box = proxy.grid.index_box();
+  for (int corner = 0; corner < 8; ++corner) {
+    Vec3f p;
+    for (int a = 0; a < 3; ++a) p[a] = corner >> a & 1 ? domain.upper[a] : domain.lower[a];
+    const Vec3f q = proxy.index_from_main.point(p);
+    for (int a = 0; a < 3; ++a)
+      if (!(q[a] > box.lower[a] + 1e-2f && q[a] < box.upper[a] - 1e-2f)) return false;
+  }
+  return true;
+}
+
+std::vector<float> inside_labels(const ProxyDescription& proxy, const std::string& where) {
+  if (proxy.labels.empty()) refuse(where + "/labels", "found none, expected the labels that are inside");
+  std::vector<float> labels;
+  for (const std::int64_t label : proxy.labels) labels.push_back(static_cast<float>(label));
+  return labels;
+}
+
+Volume derived(const ProxyDescription& proxy, const Volume& from, const std::string& where) {
+  switch (proxy.kind) {
+    case ProxyKind::kGradient:
+      return gradient_magnitude(from);
+    case ProxyKind::kSmoothed:
+      return smoothed(from, proxy.sigma_mm);
+    case ProxyKind::kDistance:
+      return signed_distance(from, inside_labels(proxy, where));
+    case ProxyKind::kFile:
+      break;
+  }
+  VolumeDescription file;
+  file.path = proxy.path;
+  return open_volume(file);
+}
+
+}  // namespace
+
+void check_whole_numbers(const GridView& grid, const std::string& where) {
+  std::atomic<bool> fractions{false};
+  with_voxels(grid.type, grid.voxels, [&](const auto* voxels) {
+    parallel_for(grid.size[2], 1, [&](std::int64_t k) {
+      for (std::int64_t i = k * grid.stride_k; i < (k + 1) * grid.stride_k; ++i) {
+        const auto v = static_cast<double>(voxels[i]);
+        if (std::isfinite(v) && v != std::floor(v)) fractions = true;
+      }
+    });
+  });
+  if (fractions)
+    throw Error(ErrorCode::kBadFormat, where, "expected a label volume of whole numbers, found fractions");
+}
+
+RuleVolumes::RuleVolumes(const Volume& main, const VolumeStatistics& statistics,
+                         const std::vector<ProxyDescription>& proxies, const Double3& origin_mm) {
+  RuleVolume data;
+  data.name = "data";
+  data.view.grid = make_grid_view(moved_to_origin(main, origin_mm));
+  data.view.inverse_gradient_scale = 1 / statistics.gradient_p999;
+  data.values = {statistics.lower, statistics.upper};
+  data.has_nonfinite = statistics.nonfinite_voxels > 0;
+  volumes_.push_back(data);
+  for (std::size_t i = 0; i < proxies.size(); ++i) {
+    const ProxyDescription& proxy = proxies[i];
+    const std::string where = "/proxies/" + std::to_string(i);
+    const auto named = [&](const std::string& name) {
+      return std::find_if(volumes_.begin(), volumes_.end(), [&](const auto& v) { return v.name == name; });
+    };
+    if (proxy.name.empty() || proxy.name == "opacity" || named(proxy.name) != volumes_.end())
+      refuse(where + "/name", fmt::format("found \"{}\", expected a name of its own", proxy.name));
+    const bool from_file = proxy.kind == ProxyKind::kFile;
+    if (from_file && proxy.path.empty()) refuse(where + "/path", "found \"\", expected a volume file");
+    if (!from_file && !proxy.path.empty()) refuse(where + "/path", "a derived volume has none");
+    const auto of = named(proxy.of);
+    if (!from_file && of == volumes_.end())
+      refuse(where + "/of", fmt::format("found \"{}\", expected \"data\" or a proxy further up", proxy.of));
+    if (proxy.kind == ProxyKind::kDistance && of != volumes_.begin() && !of->view.nearest)
+      refuse(where + "/of", fmt::format("found \"{}\", which is interpolated, expected labels", proxy.of));
+    const auto number = from_file ? 0 : static_cast<std::size_t>(of - volumes_.begin());
+    add(proxy, derived(proxy, number == 0 ? main : voxels_[number - 1], where), origin_mm, where);
+    // Where the gradient is large says nothing about which way a surface faces.
+    if (proxy.kind == ProxyKind::kGradient)
+      volumes_.back().view.surface_volume = volumes_[number].view.surface_volume;
+  }
+}
+
+void RuleVolumes::add(const ProxyDescription& proxy, Volume volume, const Double3& origin_mm,
+                      const std::string& where) {
+  warnings_.insert(warnings_.end(), volume.warnings.begin(), volume.warnings.end());
+  voxels_.push_back(std::move(volume));
+  RuleVolume out;
+  out.name = proxy.name;
+  RuleVolumeView& view = out.view;
+  view.grid = make_grid_view(moved_to_origin(voxels_.back(), origin_mm));
+  const GridView& main = volumes_.front().view.grid;
+  view.is_main_grid = same_grid(view.grid, main);
+  view.index_from_main = composed(view.grid.index_from_world, main.world_from_index);
+  view.nearest = proxy.lookup == Lookup::kNearest;
+  view.surface_volume = view.nearest ? 0 : static_cast<std::int32_t>(volumes_.size());
+  const VolumeStatistics statistics = compute_statistics(view.grid);
+  const std::string file = proxy.kind == ProxyKind::kFile ? proxy.path : where;
+  if (!std::isfinite(statistics.lower) || !std::isfinite(statistics.upper))
+    throw Error(ErrorCode::kUnsupported, file, "its values exceed what a 32-bit float holds; rescale them");
+  out.values = {statistics.lower, statistics.upper};
+  out.has_nonfinite = statistics.nonfinite_voxels > 0;
+  view.inverse_gradient_scale = 1 / statistics.gradient_p999;
+  out.covers_main = covers(view, main);
+  if (view.nearest) {
+    check_whole_numbers(view.grid, file);
+    if (std::max(-out.values.lower, out.values.upper) > kMostLabel)
+      throw Error(ErrorCode::kBadFormat, file,
+                  fmt::format("expected labels of at most {}, found {}", kMostLabel, out.values.upper));
+  }
+  volumes_.push_back(std::move(out));
+}
+
+}  // namespace voxlume

@@ -1,0 +1,40 @@
+#pragma once
+#include <span>
+#include <string>
+#include <vector>
+
+#include "grid/volume_statistics.h"
+#include "transfer/classifier.h"
+#include "voxlume/scene.h"
+#include "voxlume/volume.h"
+
+namespace voxlume {
+
+/// Throws Error kBadFormat at `where` unless every finite voxel is a whole number (NaN counts as background).
+void check_whole_numbers(const GridView& grid, const std::string& where);
+
+/// The main volume and a scene's proxies, read or derived, as rules name them.
+class RuleVolumes {
+ public:
+  /// Positions of the views are LPS mm from origin_mm. `main` has these statistics and must outlive this.
+  /// Throws Error with the JSON path of a wrong proxy (a name twice or reserved, nothing to read or to derive
+  /// from), kBadFormat for labels that are no whole numbers, and those of read_volume and of deriving.
+  RuleVolumes(const Volume& main, const VolumeStatistics& statistics,
+              const std::vector<ProxyDescription>& proxies, const Double3& origin_mm);
+  RuleVolumes(RuleVolumes&&) = default;
+  RuleVolumes& operator=(RuleVolumes&&) = default;
+
+  /// "data" first.
+  std::span<const RuleVolume> volumes() const { return volumes_; }
+  /// What reading the files had to say.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+ private:
+  void add(const ProxyDescription& proxy, Volume volume, const Double3& origin_mm, const std::string& where);
+
+  std::vector<Volume> voxels_;  ///< of the proxies, which the views point to
+  std::vector<RuleVolume> volumes_;
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace voxlume
