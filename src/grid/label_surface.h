@@ -11,7 +11,7 @@ namespace voxlume {
 /// never more, and falls to 0 where the kernel ends; it is 0 within a label, where other labels lie alike on
 /// opposite sides (in the middle of a thin sheet), and in NaN voxels. Continuous in p_index, but for changes
 /// of the label there, at which it turns round. Labels beyond the volume are those at its border. Reads up to
-/// some 600 voxels.
+/// some 700 voxels.
 Vec3f label_normal(const GridView& labels, Vec3f p_index) noexcept;
 
 }  // namespace voxlume
