@@ -7,9 +7,12 @@
 #include <itkRecursiveGaussianImageFilter.h>
 #include <itkSignedMaurerDistanceMapImageFilter.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <mutex>
+#include <vector>
 
 #include "base/fail.h"
 #include "base/parallel.h"

@@ -25,9 +25,9 @@ inline constexpr float kNoBoundary_mm = 1e6f;
 /// Distance of every voxel centre from the boundary of the union of the labels `inside` [mm], positive inside
 /// and negative outside. A voxel belongs to the union when its value, as the float sample_nearest returns, is
 /// in `inside`. The distance is the exact Euclidean one to the nearest voxel centre of the other side, less
-/// half a voxel along that direction: exact for flat boundaries along the axes, else within half a voxel. The
-/// volume's own border is no boundary. When every voxel is inside all are kNoBoundary_mm, when none is
-/// -kNoBoundary_mm.
+/// half a voxel along that direction: exact for flat boundaries along the axes, else within half of a voxel's
+/// longest side. The volume's own border is no boundary. When every voxel is inside all are kNoBoundary_mm,
+/// when none is -kNoBoundary_mm.
 Volume signed_distance(const Volume& labels, std::span<const float> inside);
 
 }  // namespace voxlume
