@@ -20,7 +20,7 @@ int volume_number(const std::string& name, std::span<const RuleVolume> volumes) 
 
 Classifier::Classifier(const TransferDescription& transfer, std::span<const RuleVolume> volumes,
                        std::span<const NamedMaterialDescription> materials)
-    : merge_(transfer.merge), volumes_(volumes.begin(), volumes.end()) {
+    : merge_(transfer.merge), smooth_labels_(transfer.smooth_labels), volumes_(volumes.begin(), volumes.end()) {
   if (transfer.rules.empty()) return;
   TransferDescription own = transfer;
   own.rules.clear();
@@ -44,6 +44,7 @@ ClassifierView Classifier::view() const {
   view.rules = rule_views_.data();
   view.rule_count = static_cast<std::int32_t>(rule_views_.size());
   view.merge = merge_;
+  view.smooth_labels = smooth_labels_;
   for (std::size_t i = 0; i < volumes_.size(); ++i) view.volumes[i] = volumes_[i].view;
   if (has_rules()) view.own_points = own_points_.front().view();
   return view;

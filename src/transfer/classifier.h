@@ -55,6 +55,7 @@ class Classifier {
 
  private:
   Merge merge_ = Merge::kPriority;
+  bool smooth_labels_ = true;
   std::vector<RuleVolume> volumes_;
   std::vector<CompiledRule> rules_;
   std::vector<RuleView> rule_views_;
