@@ -61,9 +61,9 @@ Place random_place(Rng& rng, int i) {
 TEST(Tables, MirrorFitsTheIntegral) {
   Rng rng(1, 0, 0, 0);
   double worst = 0, worst_mean = 0;
-  for (int i = 0; i < 240; ++i) {
+  for (int i = 0; i < 160; ++i) {
     const auto [cosine, alpha] = random_place(rng, i);
-    const GgxIntegrals exact = integrate(double{cosine}, double{alpha}, 1.5, 1000);
+    const GgxIntegrals exact = integrate(double{cosine}, double{alpha}, 1.5, 800);
     const AlbedoEntry entry = ggx_albedo().at(cosine, alpha);
     const double error = std::abs(double{entry.albedo} / exact.mirror - 1);
     EXPECT_LT(error, 5e-4) << "cosine " << cosine << " alpha " << alpha;
@@ -88,15 +88,15 @@ TEST(Tables, GlassFitsTheIntegral) {
     const GlassAlbedo table(ior);
     EXPECT_EQ(table.ior(), ior);
     double worst[2] = {}, squares[2] = {};
-    constexpr int kPlaces = 60;
+    constexpr int kPlaces = 48;
     for (int i = 0; i < kPlaces; ++i) {
       const auto [cosine, alpha] = random_place(rng, i);
       for (bool outside : {false, true}) {
         const GgxIntegrals exact =
-            integrate(double{cosine}, double{alpha}, outside ? double{ior} : 1 / double{ior}, 700);
+            integrate(double{cosine}, double{alpha}, outside ? double{ior} : 1 / double{ior}, 600);
         const double error = std::abs(
             double{table.at(outside, cosine, alpha).albedo} / (exact.reflected + exact.refracted) - 1);
-        EXPECT_LT(error, 3e-3) << ior << " cosine " << cosine << " alpha " << alpha;
+        EXPECT_LT(error, ior < 1.3f ? 4e-3 : 2e-3) << ior << " cosine " << cosine << " alpha " << alpha;
         worst[outside] = std::max(worst[outside], error);
         squares[outside] += error * error;
       }
@@ -159,7 +159,7 @@ TEST(Tables, RoughDiffuseAlbedoIsTheIntegral) {
       // s = sin sin cos(phi); by Gauss's rule of 2 points in many small steps of cos_i, split where t bends.
       double sum = 0;
       const auto add = [&](double from, double to) {
-        constexpr int kSteps = 400, kAzimuths = 256;
+        constexpr int kSteps = 100, kAzimuths = 1024;
         for (int i = 0; i < 2 * kSteps; ++i) {
           const double offset = 0.5 + (i % 2 == 0 ? -0.5 : 0.5) / std::sqrt(3.0);
           const double v = (i / 2 + offset) / kSteps;
@@ -177,9 +177,7 @@ TEST(Tables, RoughDiffuseAlbedoIsTheIntegral) {
       const double bend = std::acos(double{cosine});
       add(0, bend);
       add(bend, std::numbers::pi / 2);
-      // The azimuth's midpoints overestimate the half wave of cos(phi) by 1 + (2 pi / 256)^2 / 24.
-      EXPECT_NEAR(double{rough_diffuse_albedo(cosine, roughness)}, sum, 1e-5 + 2.6e-5 * std::abs(sum - 1))
-          << roughness << " " << cosine;
+      EXPECT_NEAR(double{rough_diffuse_albedo(cosine, roughness)}, sum, 1e-5) << roughness << " " << cosine;
     }
 }
 
