@@ -33,11 +33,11 @@ struct VolumeDescription {
 
 /// One control point. Every coefficient has its own piecewise-linear curve through the points that give it.
 struct TransferPoint {
-  double value = 0;                   ///< data units; points are sorted; two at one value are a step
-  std::optional<double> opacity;      ///< [0,1] per reference length
-  std::optional<double> mu_t_per_mm;  ///< >= 0; a function uses either opacity or this, not both
-  std::optional<Color> color;         ///< scattering albedo, each channel in [0,1]
-  std::optional<Color> emission;      ///< emitted radiance of an opaque region, >= 0
+  double value = 0;                          ///< data units; points are sorted; two at one value are a step
+  std::optional<double> opacity;             ///< [0,1] per reference length
+  std::optional<double> mu_t_per_mm;         ///< >= 0; a function uses either opacity or this, not both
+  std::optional<Color> color;                ///< scattering albedo, each channel in [0,1]
+  std::optional<Color> emission;             ///< emitted radiance of an opaque region, >= 0
   std::optional<double> roughness = {};      ///< [0,1]
   std::optional<double> metallic = {};       ///< [0,1]
   std::optional<double> specular = {};       ///< [0,1]
@@ -53,9 +53,9 @@ enum class Lookup { kLinear, kNearest };
 struct ProxyDescription {
   std::string name;  ///< what rules call it; neither "data" nor "opacity"
   ProxyKind kind = ProxyKind::kFile;
-  std::string path;                 ///< kFile: any volume file, on any grid
-  std::string of = "data";          ///< derived: the volume it is derived from
-  double sigma_mm = 1;              ///< kSmoothed: of the Gaussian; > 0
+  std::string path;                  ///< kFile: any volume file, on any grid
+  std::string of = "data";           ///< derived: the volume it is derived from
+  double sigma_mm = 1;               ///< kSmoothed: of the Gaussian; > 0
   std::vector<std::int64_t> labels;  ///< kDistance: the labels that are inside
   Lookup lookup = Lookup::kLinear;   ///< nearest: whole numbers, never interpolated (labels)
   friend bool operator==(const ProxyDescription&, const ProxyDescription&) = default;
@@ -112,18 +112,18 @@ struct TransferDescription {
 /// A material by name. What is absent is that of `like`, else the scene's `material`.
 struct NamedMaterialDescription {
   std::string name;
-  std::string like;                     ///< a material of the library (docs/materials.md), or none
-  std::optional<double> opacity;        ///< [0,1] per reference length; absent: the rules' own
-  std::optional<double> mu_t_per_mm;    ///< instead of an opacity
-  std::optional<Color> color;           ///< [0,1]
-  std::optional<Color> emission;        ///< >= 0
-  std::optional<double> roughness;      ///< [0,1]
-  std::optional<double> metallic;       ///< [0,1]: share of metal among surface particles
-  std::optional<double> specular;       ///< [0,1]
-  std::optional<double> anisotropy;     ///< (-1,1)
-  std::optional<double> surface_share;  ///< [0,1]: multiplies the share that follows from the gradient
-  std::optional<double> transmission;   ///< [0,1]: share of rough glass among the rest of the surface
-  std::optional<double> ior;            ///< [1,4]: of the glass
+  std::string like;                         ///< a material of the library (docs/materials.md), or none
+  std::optional<double> opacity;            ///< [0,1] per reference length; absent: the rules' own
+  std::optional<double> mu_t_per_mm;        ///< instead of an opacity
+  std::optional<Color> color;               ///< [0,1]
+  std::optional<Color> emission;            ///< >= 0
+  std::optional<double> roughness;          ///< [0,1]
+  std::optional<double> metallic;           ///< [0,1]: share of metal among surface particles
+  std::optional<double> specular;           ///< [0,1]
+  std::optional<double> anisotropy;         ///< (-1,1)
+  std::optional<double> surface_share;      ///< [0,1]: multiplies the share that follows from the gradient
+  std::optional<double> transmission;       ///< [0,1]: share of rough glass among the rest of the surface
+  std::optional<double> ior;                ///< [1,4]: of the glass
   std::optional<double> diffuse_roughness;  ///< [0,1]: 0 is Lambert
   std::optional<double> back_anisotropy;    ///< (-1,1): of a second lobe of the phase function
   std::optional<double> back_share;         ///< [0,1]: of that lobe
@@ -139,8 +139,9 @@ struct LabelsDescription {
 };
 
 enum class Shading { kCoexistence, kExposureRender, kPhase, kBrdf };
-/// Reciprocal: one BRDF that absorbs what its parts do not reflect. Particles: normalised lobes, all absorption
-/// in the colours (xu2025 section 3.2). Auto: particles where materials or rules ask for more than colours.
+/// Reciprocal: one BRDF that absorbs what its parts do not reflect. Particles: normalised lobes, all
+/// absorption in the colours (xu2025 section 3.2). Auto: particles where materials or rules ask for more than
+/// colours.
 enum class LobeModel { kAuto, kReciprocal, kParticles };
 enum class SurfaceShareForm { kHybrid, kExponential, kModulation, kThreshold };
 
@@ -270,7 +271,7 @@ struct RenderDescription {
   FreeFlightSampling free_flight = FreeFlightSampling::kDelta;
   /// Shadow rays that can add less than this many times the path's first one are cast by Russian roulette.
   double shadow_roulette = 0;
-  std::string simd = "auto";  ///< auto scalar
+  std::string simd = "auto";     ///< auto scalar
   std::string denoise = "none";  ///< none, or a denoiser (docs/denoising.md)
   /// Which techniques gather light at a scattering: "mis" (both), "light" (next-event estimation alone) or
   /// "direction" (direction sampling alone, which never finds point and directional lights).

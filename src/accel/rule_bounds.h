@@ -8,8 +8,8 @@
 namespace voxlume {
 
 /// Bounds of the extinction of cells under rules of several volumes: ranges of volumes that are interpolated,
-/// sets of labels of those that are not (xu2025 section 4: updates for transfer functions of any kind). Ranges
-/// and sets are built once per set of volumes.
+/// sets of labels of those that are not (xu2025 section 4: updates for transfer functions of any kind).
+/// Ranges and sets are built once per set of volumes.
 class RuleBounds {
  public:
   /// Cells and their order are those of build_value_ranges(main, cell_voxels, order). The first volume is the
@@ -31,7 +31,8 @@ class RuleBounds {
     std::vector<ValueRange> ranges;
     LabelSets sets;
   };
-  void find_rule(int rule, std::int64_t first, std::int64_t count, const ValueRange* data, float* upper) const;
+  void find_rule(int rule, std::int64_t first, std::int64_t count, const ValueRange* data,
+                 float* upper) const;
   VolumeRange range_of(int volume, std::int64_t cell, const ValueRange* data) const;
 
   std::vector<Cells> volumes_;

@@ -229,11 +229,11 @@ CameraPath::Wait CameraPath::next_light_sample(const SceneView& scene, TraceCoun
   while (light_samples_left_ > 0) {
     const auto stratum = static_cast<float>(light_samples_left_--);
     const float u0 = rng_.next(), u1 = rng_.next();
-    const LightSample light = sample_light(scene.lights, matter_.p_world, (stratum + query_.u_pick) / count, u0, u1);
+    const LightSample light =
+        sample_light(scene.lights, matter_.p_world, (stratum + query_.u_pick) / count, u0, u1);
     const TrackRay ray = ray_from(scene, query_.p_index, matter_.p_world, light.wi, light.distance_mm);
     const ScatterParts h = kernel(scene).eval(light.wi);
-    if (!cast(scene, light, {h.diffuse + h.specular + h.phase, h.pdf}, ray, counters))
-      continue;
+    if (!cast(scene, light, {h.diffuse + h.specular + h.phase, h.pdf}, ray, counters)) continue;
     if (enters()) return Wait::kTransmittance;
     radiance_ += unshadowed_;
     if (scene.keeps_parts && depth_ == 0) add_first(first_light_.arriving);

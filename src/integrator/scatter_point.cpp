@@ -99,12 +99,11 @@ MatterPoint matter_at(const SceneView& scene, Vec3f p_index, float value) noexce
     const float magnitude = length(outward);
     if (magnitude > 1e-6f && std::isfinite(magnitude)) {
       scatter.normal = outward / magnitude;
-      const float share =
-          scattering.shading == Shading::kBrdf
-              ? 1.0f
-              : surface_share(scattering.surface_share, scattering.gradient_factor,
-                              scattering.opacity_modulated,
-                              opacity_of(scene.medium.transfer, optics.mu_t), magnitude);
+      const float share = scattering.shading == Shading::kBrdf
+                              ? 1.0f
+                              : surface_share(scattering.surface_share, scattering.gradient_factor,
+                                              scattering.opacity_modulated,
+                                              opacity_of(scene.medium.transfer, optics.mu_t), magnitude);
       scatter.p_brdf = share * matter.number_or(Number::kSurfaceShare, 1);
     }
   }

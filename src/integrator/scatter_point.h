@@ -7,10 +7,10 @@ namespace voxlume {
 
 /// Matter at a real collision.
 struct MatterPoint {
-  ScatterPoint scatter;  ///< surface share and normal included
+  ScatterPoint scatter;     ///< surface share and normal included
   ParticlePoint particles;  ///< the same as particles, where the scene shades those
-  Vec3f emission;        ///< L_e
-  Vec3f p_world;         ///< LPS mm
+  Vec3f emission;           ///< L_e
+  Vec3f p_world;            ///< LPS mm
 };
 
 /// Classifies the data `value` at p_index and finds its surface: the normal is the outward data gradient, to

@@ -65,8 +65,8 @@ struct SceneView {
   LightSampling light_sampling = LightSampling::kMis;
   bool matter_emits = false;
   bool shades_singly = false;  ///< matter is not everywhere alike: shaded by scalar code
-  bool keeps_parts = false;  ///< paths keep their RadianceParts
-  float dense_mu_t = 0;      ///< [1/mm]; matter that is denser stands for the pixel (xu2024 5.2)
+  bool keeps_parts = false;    ///< paths keep their RadianceParts
+  float dense_mu_t = 0;        ///< [1/mm]; matter that is denser stands for the pixel (xu2024 5.2)
   /// Whether a flight after the last scattering can meet anything that emits.
   bool last_flight_collects = true;
 };

@@ -1,6 +1,6 @@
 #pragma once
-#include "light/lights_view.h"
 #include "integrator/scattering.h"
+#include "light/lights_view.h"
 
 namespace voxlume {
 

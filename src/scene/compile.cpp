@@ -142,7 +142,8 @@ struct CompiledScene::Parts {
 CompiledScene::CompiledScene(SceneDescription description, Volume volume, const VolumeStatistics& statistics)
     : volume_(std::move(volume)),
       origin_mm_(visible_sphere(volume_, std::nullopt).center_mm),
-      statistics_{statistics.lower, statistics.upper, statistics.nonfinite_voxels, statistics.gradient_p999, {}} {
+      statistics_{
+          statistics.lower, statistics.upper, statistics.nonfinite_voxels, statistics.gradient_p999, {}} {
   if (!std::isfinite(statistics.lower) || !std::isfinite(statistics.upper))
     throw Error(ErrorCode::kUnsupported, description.volume.path,
                 "its values exceed what a 32-bit float holds, in which voxlume computes; rescale them");
@@ -214,9 +215,8 @@ void CompiledScene::compile_lights(const SceneDescription& local, bool everythin
                                    const SceneSphere& sphere) {
   const EnvironmentDescription& environment = *local.environment;
   // Directions find light through the physical extinction, which is not what shadow rays meet then.
-  const LightSampling sampling = local.material.self_occlusion < 1
-                                     ? LightSampling::kLight
-                                     : light_sampling(local.render.light_sampling);
+  const LightSampling sampling =
+      local.material.self_occlusion < 1 ? LightSampling::kLight : light_sampling(local.render.light_sampling);
   // The tables of the environment's picture are what takes long.
   const bool same_tables = !everything && sampling == view_.light_sampling &&
                            environment.image == description_.environment->image &&

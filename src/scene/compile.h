@@ -17,8 +17,8 @@
 
 namespace voxlume {
 
-/// The structure that a scene asks for. Throws Error kBadParameter for words it does not know, kUnsupported for
-/// what does not go together.
+/// The structure that a scene asks for. Throws Error kBadParameter for words it does not know, kUnsupported
+/// for what does not go together.
 AcceleratorChoice accelerator_choice(const SceneDescription& scene, const GridView& grid);
 
 /// A scene ready to trace: owns the voxels and every table that view() points to. World coordinates of view()
@@ -66,7 +66,7 @@ class CompiledScene {
 
   SceneDescription description_;
   Volume volume_;
-  Double3 origin_mm_;  ///< the volume's centre
+  Double3 origin_mm_;            ///< the volume's centre
   VolumeStatistics statistics_;  ///< without the histogram
   std::optional<Volume> label_volume_;
   std::optional<LabelTable> label_table_;

@@ -79,15 +79,17 @@ void visit_fields(V&& visit, Struct<MaterialDescription>) {
          .range = between(0, 1)},
         &T::specular);
   visit({.key = "lobes",
-         .doc = "What scatters: one BRDF that absorbs what its parts do not reflect (reciprocal), or normalized "
-                "lobes whose absorption is all in the colors (particles). auto takes particles where "
-                "materials or rules give more than opacities, colors and emission."},
+         .doc =
+             "What scatters: one BRDF that absorbs what its parts do not reflect (reciprocal), or normalized "
+             "lobes whose absorption is all in the colors (particles). auto takes particles where "
+             "materials or rules give more than opacities, colors and emission."},
         &T::lobes);
-  visit({.key = "self_occlusion",
-         .doc = "Multiplies the extinction that shadow rays meet; below 1 brightens what shadows itself. 1 is "
-                "physical.",
-         .range = above_to(0, 1)},
-        &T::self_occlusion);
+  visit(
+      {.key = "self_occlusion",
+       .doc = "Multiplies the extinction that shadow rays meet; below 1 brightens what shadows itself. 1 is "
+              "physical.",
+       .range = above_to(0, 1)},
+      &T::self_occlusion);
 }
 
 inline StructInfo struct_info(Struct<ClipDescription>) {

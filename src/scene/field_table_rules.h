@@ -63,10 +63,11 @@ void visit_fields(V&& visit, Struct<TransferPoint>) {
          .range = between(0, 1),
          .absent = "the curve passes by"},
         &T::surface_share);
-  visit({.key = "material",
-         .doc = "Of rules mpctf and mdptf: the material, one of the scene's or of the library. What the point "
-                "gives itself comes before the material's own."},
-        &T::material);
+  visit(
+      {.key = "material",
+       .doc = "Of rules mpctf and mdptf: the material, one of the scene's or of the library. What the point "
+              "gives itself comes before the material's own."},
+      &T::material);
 }
 
 inline StructInfo struct_info(Struct<ProxyDescription>) {
@@ -82,10 +83,11 @@ void visit_fields(V&& visit, Struct<ProxyDescription>) {
                 "function's own points.",
          .required = true},
         &T::name);
-  visit({.key = "kind",
-         .doc = "Read from a file, or derived from another volume: its gradient magnitude (per mm), the volume "
-                "smoothed, or the signed distance (mm, positive inside) to the border of some labels."},
-        &T::kind);
+  visit(
+      {.key = "kind",
+       .doc = "Read from a file, or derived from another volume: its gradient magnitude (per mm), the volume "
+              "smoothed, or the signed distance (mm, positive inside) to the border of some labels."},
+      &T::kind);
   visit({.key = "path", .doc = "file: volume file or folder.", .is_path = true}, &T::path);
   visit({.key = "of", .doc = "Derived: \"data\" or the name of a proxy further up in the list."}, &T::of);
   visit({.key = "sigma_mm",
@@ -118,11 +120,12 @@ void visit_fields(V&& visit, Struct<RuleColumn>) {
 }
 
 inline StructInfo struct_info(Struct<RuleDescription>) {
-  return {"Rule",
-          "A transfer function of one volume, by points, or of two, by columns. The five kinds of Xu et al. "
-          "2025: coefficient curve (cctf), coefficient piecewise constant (cpctf), coefficient discrete point "
-          "(cdptf), material piecewise constant (mpctf), material discrete point (mdptf). A rule of discrete "
-          "points reads a volume whose lookup is nearest."};
+  return {
+      "Rule",
+      "A transfer function of one volume, by points, or of two, by columns. The five kinds of Xu et al. "
+      "2025: coefficient curve (cctf), coefficient piecewise constant (cpctf), coefficient discrete point "
+      "(cdptf), material piecewise constant (mpctf), material discrete point (mdptf). A rule of discrete "
+      "points reads a volume whose lookup is nearest."};
 }
 template <class V>
 void visit_fields(V&& visit, Struct<RuleDescription>) {
@@ -160,16 +163,18 @@ void visit_fields(V&& visit, Struct<TransferDescription>) {
   visit({.key = "density_scale", .doc = "Multiplies the extinction.", .range = between(0, 1e6)},
         &T::density_scale);
   visit({.key = "points", .doc = "Control points, sorted by value.", .max_count = 65536}, &T::points);
-  visit({.key = "rules",
-         .doc = "Further transfer functions, of this and other volumes; points, if any, are the last of them.",
-         .max_count = 16},
-        &T::rules);
-  visit({.key = "merge",
-         .doc = "How the rules become one. product: every coefficient is the product of the rules that give it "
-                "(opacities are multiplied). priority: every coefficient is that of the first rule that "
-                "applies and gives it; a rule applies where its opacity is above 0 or, if it gives none, "
-                "where it has points. maximum: the same, the rule of the greatest extinction first."},
-        &T::merge);
+  visit(
+      {.key = "rules",
+       .doc = "Further transfer functions, of this and other volumes; points, if any, are the last of them.",
+       .max_count = 16},
+      &T::rules);
+  visit(
+      {.key = "merge",
+       .doc = "How the rules become one. product: every coefficient is the product of the rules that give it "
+              "(opacities are multiplied). priority: every coefficient is that of the first rule that "
+              "applies and gives it; a rule applies where its opacity is above 0 or, if it gives none, "
+              "where it has points. maximum: the same, the rule of the greatest extinction first."},
+      &T::merge);
   visit({.key = "smooth_labels",
          .doc = "Normals at borders of labels come from a smoothed field; without, labels have no surface of "
                 "their own."},

@@ -49,7 +49,8 @@ std::vector<LibraryMaterial> make_library() {
   out.push_back(material("bone", "dry and warm, a little rough", 0xeee3cf, 0.5, 0.5, 1));
   out.back().description.diffuse_roughness = 0.4;
   out.push_back(material("tooth", "enamel: smooth and bright", 0xf9f5ec, 0.2, 0.6, 0.9));
-  out.push_back(translucent(material("cartilage", "bluish white, translucent", 0xdfe6e8, 0.35, 0.5, 0.5), 0.6));
+  out.push_back(
+      translucent(material("cartilage", "bluish white, translucent", 0xdfe6e8, 0.35, 0.5, 0.5), 0.6));
   out.push_back(translucent(material("skin", "soft, a little oily", 0xeec5ae, 0.45, 0.45, 0.7), 0.5));
   out.push_back(translucent(material("muscle", "dark red and moist", 0xb4564a, 0.3, 0.5, 0.7), 0.7));
   out.push_back(translucent(material("fat", "yellowish, translucent", 0xf2dfa2, 0.4, 0.4, 0.5), 0.7));
@@ -66,7 +67,8 @@ std::vector<LibraryMaterial> make_library() {
   out.push_back(material("frosted-glass", "clear, rough", 0xf4fafa, 0.45, 0.5, 1));
   out.back().description.transmission = 1;
   out.back().description.ior = 1.5;
-  out.push_back(translucent(material("wax", "light comes through from within", 0xf3e2b8, 0.45, 0.4, 0.35), 0.8));
+  out.push_back(
+      translucent(material("wax", "light comes through from within", 0xf3e2b8, 0.45, 0.4, 0.35), 0.8));
   out.push_back(translucent(material("jade", "green, polished, translucent", 0x8fc7a0, 0.15, 0.6, 0.5), 0.6));
   out.push_back(material("plastic", "bright and smooth", 0xd8d8d8, 0.25, 0.5, 1));
   out.push_back(material("rubber", "dark and dull", 0x3a3a3c, 0.8, 0.3, 1));
@@ -74,7 +76,8 @@ std::vector<LibraryMaterial> make_library() {
   out.push_back(material("clay", "rough, without gloss", 0xb98a6a, 1, 0, 1));
   out.back().description.diffuse_roughness = 1;
   out.push_back(translucent(material("smoke", "no surface, forward scattering", 0xe8e8ea, 1, 0, 0), 0.4));
-  out.push_back(translucent(material("cloud", "no surface, white; a backward lobe as of droplets", 0xffffff, 1, 0, 0), 0.85));
+  out.push_back(translucent(
+      material("cloud", "no surface, white; a backward lobe as of droplets", 0xffffff, 1, 0, 0), 0.85));
   out.back().description.back_anisotropy = -0.3;
   out.back().description.back_share = 0.1;
   return out;
@@ -124,7 +127,8 @@ std::vector<NamedMaterialDescription> all_materials(const std::vector<NamedMater
       throw Error(ErrorCode::kBadParameter, where + "/name",
                   "found " + quote_text(material.name) + ", expected a name of its own");
     if (material.opacity && material.mu_t_per_mm)
-      throw Error(ErrorCode::kBadParameter, where, "found both opacity and mu_t_per_mm, expected one of them");
+      throw Error(ErrorCode::kBadParameter, where,
+                  "found both opacity and mu_t_per_mm, expected one of them");
     if (!material.like.empty()) {
       const NamedMaterialDescription* like = find(library, material.like);
       if (!like)

@@ -15,8 +15,8 @@ struct LibraryMaterial {
 /// Every material of the library, in the order in which they are listed.
 const std::vector<LibraryMaterial>& material_library();
 
-/// The scene's materials with what `like` gives filled in, then the library's. Throws Error kBadParameter with
-/// the JSON path of a name that is empty or there twice, or of a `like` that the library has not.
+/// The scene's materials with what `like` gives filled in, then the library's. Throws Error kBadParameter
+/// with the JSON path of a name that is empty or there twice, or of a `like` that the library has not.
 std::vector<NamedMaterialDescription> all_materials(const std::vector<NamedMaterialDescription>& own);
 
 }  // namespace voxlume

@@ -31,8 +31,9 @@ std::array<double, N> each_number(const KeyWindow<std::array<double, N>>& window
 }
 
 constexpr std::optional<double> TransferPoint::*kNumbers[] = {
-    &TransferPoint::opacity,  &TransferPoint::mu_t_per_mm, &TransferPoint::roughness,    &TransferPoint::metallic,
-    &TransferPoint::specular, &TransferPoint::anisotropy,  &TransferPoint::surface_share};
+    &TransferPoint::opacity,      &TransferPoint::mu_t_per_mm, &TransferPoint::roughness,
+    &TransferPoint::metallic,     &TransferPoint::specular,    &TransferPoint::anisotropy,
+    &TransferPoint::surface_share};
 constexpr std::optional<Color> TransferPoint::*kColors[] = {&TransferPoint::color, &TransferPoint::emission};
 
 /// Whether two functions have points that correspond.

@@ -10,7 +10,7 @@ struct Medium {
   GridView grid;
   TransferView transfer;
   AcceleratorView accelerator;
-  ClassifierView rules;  ///< where there are some, they classify in place of `transfer`
+  ClassifierView rules{};  ///< where there are some, they classify in place of `transfer`
   /// Multiplies the extinction that shadow rays meet, in (0, 1] (xu2025 section 3.4).
   float shadow_extinction = 1;
 };

@@ -346,7 +346,8 @@ class LaneTracker {
     F met = mu_t;
     if (medium_.shadow_extinction != 1)
       met = hn::IfThenElse(to_f(shadow), hn::Mul(mu_t, hn::Set(kF, medium_.shadow_extinction)), mu_t);
-    F transmittance = hn::Mul(load(lanes_.transmittance, v), hn::Sub(hn::Set(kF, 1.0f), hn::Div(met, mu_maj)));
+    F transmittance =
+        hn::Mul(load(lanes_.transmittance, v), hn::Sub(hn::Set(kF, 1.0f), hn::Div(met, mu_maj)));
     const MaskU low = hn::And(where, to_u(hn::Lt(transmittance, threshold)));
     const MaskU gambles = hn::And(low, shadow), real = hn::AndNot(shadow, low);
     MaskU done = real;

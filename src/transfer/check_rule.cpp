@@ -138,10 +138,11 @@ class RuleCheck {
 
   void note_extinction(bool has_extinction, const std::string& where) {
     if (extinction_ && *extinction_ != has_extinction)
-      refuse(where, fmt::format("found {}, expected an opacity (or mu_t_per_mm) of all points of the rule, or "
-                                "of their materials, or of none",
-                                has_extinction ? "an extinction where points before have none"
-                                               : "no extinction where points before have one"));
+      refuse(where,
+             fmt::format("found {}, expected an opacity (or mu_t_per_mm) of all points of the rule, or "
+                         "of their materials, or of none",
+                         has_extinction ? "an extinction where points before have none"
+                                        : "no extinction where points before have one"));
     extinction_ = has_extinction;
   }
 

@@ -20,7 +20,9 @@ int volume_number(const std::string& name, std::span<const RuleVolume> volumes) 
 
 Classifier::Classifier(const TransferDescription& transfer, std::span<const RuleVolume> volumes,
                        std::span<const NamedMaterialDescription> materials)
-    : merge_(transfer.merge), smooth_labels_(transfer.smooth_labels), volumes_(volumes.begin(), volumes.end()) {
+    : merge_(transfer.merge),
+      smooth_labels_(transfer.smooth_labels),
+      volumes_(volumes.begin(), volumes.end()) {
   if (transfer.rules.empty()) return;
   TransferDescription own = transfer;
   own.rules.clear();
@@ -29,7 +31,8 @@ Classifier::Classifier(const TransferDescription& transfer, std::span<const Rule
   for (std::size_t i = 0; i < transfer.rules.size(); ++i) {
     const RuleDescription& rule = transfer.rules[i];
     check_rule(rule, volumes, !transfer.points.empty(), materials, "/transfer/rules/" + std::to_string(i));
-    rules_.emplace_back(rule, volume_number(rule.volume, volumes), volume_number(rule.along, volumes), context);
+    rules_.emplace_back(rule, volume_number(rule.volume, volumes), volume_number(rule.along, volumes),
+                        context);
   }
   if (!transfer.points.empty()) {
     RuleDescription last;

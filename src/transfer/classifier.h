@@ -12,9 +12,9 @@ namespace voxlume {
 struct RuleVolume {
   std::string name;  ///< "data" for the main volume, which is the first
   RuleVolumeView view;
-  ValueRange values;             ///< of the whole volume
-  bool covers_main = true;       ///< its grid holds the main one's domain
-  bool has_nonfinite = false;    ///< some voxels are no numbers
+  ValueRange values;           ///< of the whole volume
+  bool covers_main = true;     ///< its grid holds the main one's domain
+  bool has_nonfinite = false;  ///< some voxels are no numbers
 };
 
 /// The transfer-function manager of xu2025 section 5: rules of several volumes and how they merge. Immutable;
@@ -31,7 +31,8 @@ class Classifier {
   Classifier& operator=(Classifier&&) = default;
 
   bool has_rules() const { return !rules_.empty(); }
-  /// Points into this, which must stay where it is. Outside bytes are not copied: the volumes must outlive it.
+  /// Points into this, which must stay where it is. Outside bytes are not copied: the volumes must outlive
+  /// it.
   ClassifierView view() const;
 
   /// No mu_t [1/mm] is above where the volumes' values are within `volumes`, in the order of the volumes.
@@ -45,8 +46,8 @@ class Classifier {
   std::span<const CompiledRule> rules() const { return rules_; }
   Merge merge() const { return merge_; }
   std::span<const RuleVolume> volumes() const { return volumes_; }
-  /// The values of a volume that a rule reads (kOpacityVolume and -1, none, too) where the volumes' are within
-  /// `volumes`.
+  /// The values of a volume that a rule reads (kOpacityVolume and -1, none, too) where the volumes' are
+  /// within `volumes`.
   VolumeRange range_of(int volume, const VolumeRange (&volumes)[kMostVolumes]) const;
   /// The bound of mu_t [1/mm] where that of every rule i is upper(i), 0 for rules that give none.
   /// `applies(i)` tells whether rule i is above 0 everywhere there; it is asked for few rules.

@@ -84,7 +84,9 @@ struct RuleVolumeView {
   std::int32_t surface_volume = 0;
   float inverse_gradient_scale = 1;  ///< 1 / its usual gradient magnitude [mm per data unit]
 
-  Vec3f index_of(Vec3f p_main) const noexcept { return is_main_grid ? p_main : index_from_main.point(p_main); }
+  Vec3f index_of(Vec3f p_main) const noexcept {
+    return is_main_grid ? p_main : index_from_main.point(p_main);
+  }
 };
 
 /// The transfer functions of several volumes (xu2025 section 5): position in, optical properties out.
@@ -116,10 +118,10 @@ class VolumeValues {
   float operator[](int volume) noexcept {
     if (known_ & (1u << volume)) return values_[volume];
     known_ |= 1u << volume;
-    return values_[volume] = volume == kOpacityVolume
-                                 ? opacity_of(classifier_.own_points,
-                                              classify_mu_t(classifier_.own_points, values_[0]))
-                                 : look_up(classifier_.volumes[volume], p_main_);
+    return values_[volume] =
+               volume == kOpacityVolume
+                   ? opacity_of(classifier_.own_points, classify_mu_t(classifier_.own_points, values_[0]))
+                   : look_up(classifier_.volumes[volume], p_main_);
   }
 
  private:

@@ -86,15 +86,14 @@ Classified classify(const ClassifierView& classifier, Vec3f p_main, float data) 
     if (!has_extinction) own.optics.mu_t = 0;
     if (rule.given & kGivesExtinction) mu_t[dense++] = own.optics.mu_t;
     if (has_extinction ? !(own.optics.mu_t > 0) : own.given == 0) continue;
-    if (has_extinction &&
-        (deciding < 0 || (classifier.merge == Merge::kMaximum && own.optics.mu_t > applies[deciding].optics.mu_t)))
+    if (has_extinction && (deciding < 0 || (classifier.merge == Merge::kMaximum &&
+                                            own.optics.mu_t > applies[deciding].optics.mu_t)))
       deciding = count;
     rules[count] = &rule;
     applies[count++] = own;
   }
   Classified out;
-  out.optics.mu_t =
-      merged_mu_t(classifier.merge, mu_t, dense, classifier.own_points.reference_length_mm);
+  out.optics.mu_t = merged_mu_t(classifier.merge, mu_t, dense, classifier.own_points.reference_length_mm);
   if (!(out.optics.mu_t > 0)) return {};
   out.given = kGivesExtinction;
   out.optics.albedo = Vec3f(0.8f);

@@ -22,7 +22,9 @@ constexpr std::optional<double> NamedMaterialDescription::*kMaterialNumbers[kNum
     &NamedMaterialDescription::surface_share};
 
 bool is_curve(RuleKind kind) { return kind == RuleKind::kCoefficientCurve; }
-bool is_steps(RuleKind kind) { return kind == RuleKind::kCoefficientSteps || kind == RuleKind::kMaterialSteps; }
+bool is_steps(RuleKind kind) {
+  return kind == RuleKind::kCoefficientSteps || kind == RuleKind::kMaterialSteps;
+}
 
 std::int32_t material_index(std::span<const NamedMaterialDescription> materials, std::string_view name) {
   for (std::size_t i = 0; i < materials.size(); ++i)
@@ -131,7 +133,8 @@ std::vector<NumberPiece> pieces_of_curve(const std::vector<TransferPoint>& point
   std::vector<NumberPiece> pieces;
   for (std::size_t i = 0; i <= cuts.size(); ++i) {
     const double v0 = cuts[i == 0 ? 0 : i - 1], v1 = cuts[std::min(i, cuts.size() - 1)];
-    NumberPiece piece{i == 0 ? -kInfinity : static_cast<float>(v0), static_cast<float>(v0), given, -1, {}, {}};
+    NumberPiece piece{
+        i == 0 ? -kInfinity : static_cast<float>(v0), static_cast<float>(v0), given, -1, {}, {}};
     for (int n = 0; n < kNumberCount; ++n) {
       const double lower = curves[n].limit(v0, i > 0);
       piece.numbers[n] = static_cast<float>(lower);
@@ -173,7 +176,8 @@ CompiledRule::Column CompiledRule::compile_column(const RuleDescription& rule,
   const bool curve = is_curve(rule.kind);
   const std::vector<Run> runs = curve ? std::vector<Run>{} : runs_of(rule.kind, points);
   std::vector<NumberPiece> pieces = curve ? pieces_of_curve(points) : pieces_of_runs(runs, context.materials);
-  // Where a function has an extinction of its own only, it has colours: one that gives none is compiled with 1.
+  // Where a function has an extinction of its own only, it has colours: one that gives none is compiled
+  // with 1.
   for (TransferPoint& point : points) {
     if (!dense) {
       point.mu_t_per_mm = 1;
@@ -257,8 +261,8 @@ float CompiledRule::lower_mu_t(const VolumeRange& values, const VolumeRange& alo
   float least = kInfinity;
   visit_columns(view(), along, [&](const ColumnPair& pair) {
     if (pair.first < 0) return void(least = 0);
-    least = std::min({least, column_lower(columns_[pair.first], values),
-                      column_lower(columns_[pair.second], values)});
+    least = std::min(
+        {least, column_lower(columns_[pair.first], values), column_lower(columns_[pair.second], values)});
   });
   // Between discrete columns there is nothing.
   if (along_ >= 0 && column_form_ == ColumnForm::kPoints && !along.by_labels) return 0;

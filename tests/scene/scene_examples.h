@@ -15,17 +15,33 @@ inline SceneDescription full_scene() {
                        {150, 0.7, {}, {}, Color{{0, 12.5f, 0}}},
                        {150, 1.0, {}, Color{{1.0f / 3.0f, 1, 0}}, {}}};
   TransferPoint varied{7, 0.5, {}, {}, {}, 0.25, 0.75, 0.125, -0.5, 0.375, "shell"};
-  s.transfer.rules = {{RuleKind::kMaterialSteps, "pet", {varied}, {}, ColumnForm::kSteps, {}},
-                      {RuleKind::kCoefficientPoints, "atlas", {}, "gradient", ColumnForm::kPoints, {{-2.5, {varied}}}}};
+  s.transfer.rules = {
+      {RuleKind::kMaterialSteps, "pet", {varied}, {}, ColumnForm::kSteps, {}},
+      {RuleKind::kCoefficientPoints, "atlas", {}, "gradient", ColumnForm::kPoints, {{-2.5, {varied}}}}};
   s.transfer.merge = Merge::kProduct;
   s.transfer.smooth_labels = false;
   s.proxies = {{"pet", ProxyKind::kSmoothed, "pet.nrrd", "atlas", 2.5, {3, 70000}, Lookup::kNearest},
                {"atlas", ProxyKind::kFile, "atlas.nii", "data", 1, {}, Lookup::kNearest}};
-  s.materials = {{"shell", "glass", 0.5, {}, Color{{0.5f, 0.25f, 1}}, Color{{0, 2, 3}}, 0.1, 0.2, 0.3, -0.4, 0.5, 0.6,
-                  1.75, 0.7, -0.8, 0.9},
+  s.materials = {{"shell",
+                  "glass",
+                  0.5,
+                  {},
+                  Color{{0.5f, 0.25f, 1}},
+                  Color{{0, 2, 3}},
+                  0.1,
+                  0.2,
+                  0.3,
+                  -0.4,
+                  0.5,
+                  0.6,
+                  1.75,
+                  0.7,
+                  -0.8,
+                  0.9},
                  {"thin", "", {}, 0.25, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}}};
   s.labels = LabelsDescription{"labels.nii.gz", "labels.txt", 0.75};
-  s.material = {Shading::kBrdf, SurfaceShareForm::kThreshold, 0.7, false, -0.3, 0.9, 0.1, LobeModel::kParticles, 0.5};
+  s.material = {
+      Shading::kBrdf, SurfaceShareForm::kThreshold, 0.7, false, -0.3, 0.9, 0.1, LobeModel::kParticles, 0.5};
   LightDescription sun, lamp, panel;
   sun.direction = Double3{-0.5, 0.6, 0.75};
   sun.color = Color{{1, 0.9f, 0.8f}};
