@@ -49,7 +49,7 @@ struct TransferPoint {
 
 /// A volume beside the main one that rules read: a file, or derived from another.
 enum class ProxyKind { kFile, kGradient, kSmoothed, kDistance };
-enum class Lookup { kLinear, kNearest };
+enum class Lookup { kLinear, kNearest, kSmooth };
 struct ProxyDescription {
   std::string name;  ///< what rules call it; neither "data" nor "opacity"
   ProxyKind kind = ProxyKind::kFile;
@@ -57,7 +57,7 @@ struct ProxyDescription {
   std::string of = "data";           ///< derived: the volume it is derived from
   double sigma_mm = 1;               ///< kSmoothed: of the Gaussian; > 0
   std::vector<std::int64_t> labels;  ///< kDistance: the labels that are inside
-  Lookup lookup = Lookup::kLinear;   ///< nearest: whole numbers, never interpolated (labels)
+  Lookup lookup = Lookup::kLinear;   ///< nearest, smooth: labels, never interpolated
   friend bool operator==(const ProxyDescription&, const ProxyDescription&) = default;
 };
 
@@ -252,6 +252,19 @@ struct ImageDescription {
   friend bool operator==(const ImageDescription&, const ImageDescription&) = default;
 };
 
+/// A drawing in place of light transport (xu2025 Fig. 8): what a camera ray meets first has its albedo times
+/// a ramp, by how much it faces a light, and dark contours.
+struct IllustrationDescription {
+  /// By the cosine between the normal and the light, -1 to 1; only `color` is used. Empty: cool to warm.
+  std::vector<TransferPoint> ramp;
+  Double3 direction{-1, 1.2, 1.5};  ///< from the scene TO the light; need not be unit
+  Attachment attached_to = Attachment::kCamera;
+  double contour = 0.8;        ///< [0,1]: how much contours replace the colour
+  double contour_width = 0.3;  ///< [0,1]: cosine between the normal and the view below which they begin
+  Color contour_color{{0, 0, 0}};
+  friend bool operator==(const IllustrationDescription&, const IllustrationDescription&) = default;
+};
+
 /// How the light is computed.
 struct RenderDescription {
   std::uint64_t seed = 0;
@@ -327,6 +340,7 @@ struct SceneDescription {
   TransferDescription transfer;
   std::optional<LabelsDescription> labels;
   std::vector<NamedMaterialDescription> materials;
+  std::optional<IllustrationDescription> illustration;  ///< absent: light transport
   MaterialDescription material;
   std::optional<std::vector<LightDescription>> lights;  ///< absent: the default lights; [] is none
   std::optional<EnvironmentDescription> environment;    ///< absent: the default one

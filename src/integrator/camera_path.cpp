@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "integrator/background.h"
+#include "integrator/illustration.h"
 #include "integrator/unshadowed.h"
 
 namespace voxlume {
@@ -99,7 +100,7 @@ CameraPath::Wait CameraPath::end_flight(const SceneView& scene, const Collision&
 
 /// Draws what the scattering at a collision takes.
 void CameraPath::ask(const SceneView& scene, const Collision& collision) noexcept {
-  const bool goes_on = !scattered_out(scene);
+  const bool goes_on = !scattered_out(scene) && !scene.illustration.on;
   query_ = {collision.p_index, collision.value, -direction_world_,
             goes_on && scene.light_sampling != LightSampling::kDirection && scene.lights.pick.count > 0,
             goes_on && (!scatters_last(scene) || scene.last_flight_collects)};
@@ -131,6 +132,10 @@ CameraPath::Wait CameraPath::end_scattering(const SceneView& scene, const Scatte
     out_.normal = matter.scatter.normal * scattering.surface_share;
     first_light_.dense =
         scene.keeps_parts && extinction_of(scene.medium, query_.p_index, query_.value) > scene.dense_mu_t;
+  }
+  if (scene.illustration.on) {
+    radiance_ = illustrated(scene.illustration, matter, -direction_world_);
+    return end();
   }
   if (scattered_out(scene)) return end();
 

@@ -34,6 +34,15 @@ struct ScatteringView {
   const Material* materials = nullptr;  ///< the scene's own, then those that rules number from 0
 };
 
+/// A drawing in place of light transport.
+struct IllustrationView {
+  bool on = false;
+  TransferView ramp;  ///< colours by the cosine between normal and light
+  Vec3f to_light{0};  ///< unit
+  float contour = 0, contour_width = 0;
+  Vec3f contour_color{0};
+};
+
 enum class LightSampling { kMis, kLight, kDirection };
 
 /// Everything a path needs, as plain data. Compiled once by CompiledScene, which owns what this points to.
@@ -46,6 +55,7 @@ struct SceneView {
   bool clip_blocks_light = false;         ///< what is cut away still attenuates light
   ScatteringView scattering;
   LabelsView labels;
+  IllustrationView illustration;
 
   LightsView lights;
   Vec3f ambient{0};  ///< radiance added unshadowed at every scattering (xu2024 6.1)

@@ -169,6 +169,7 @@ void CompiledScene::compile(SceneDescription description, bool everything) {
   view_.camera = camera;
   put_medium(parts, local);
   put_scattering(parts, description);
+  put_illustration(description);
   put_image(description);
   description_ = std::move(description);
 }
@@ -295,7 +296,7 @@ void CompiledScene::put_scattering(Parts& parts, const SceneDescription& descrip
                   (material.lobes == LobeModel::kAuto &&
                    (!description.materials.empty() || classifier_->gives_numbers()));
   out.materials = materials_->views();
-  view_.shades_singly = out.particles || classifier_->has_rules();
+  view_.shades_singly = out.particles || classifier_->has_rules() || description.illustration;
   out.shading = material.shading;
   out.surface_share = material.surface_share;
   out.gradient_factor = static_cast<float>(material.gradient_factor);
@@ -306,6 +307,37 @@ void CompiledScene::put_scattering(Parts& parts, const SceneDescription& descrip
   out.inverse_gradient_scale = 1.0f / statistics_.gradient_p999;
   // What stands for a pixel has at least a quarter of the greatest extinction in the volume (xu2024 5.2).
   view_.dense_mu_t = 0.25f * max_mu_t();
+}
+
+void CompiledScene::put_illustration(const SceneDescription& description) {
+  IllustrationView& out = view_.illustration;
+  out = {};
+  if (!description.illustration) return;
+  const IllustrationDescription& illustration = *description.illustration;
+  TransferDescription ramp;
+  ramp.reference_length_mm = 1;
+  ramp.points = illustration.ramp;
+  if (ramp.points.empty()) {
+    ramp.points = {{-1, {}, {}, Color{{0.16f, 0.2f, 0.42f}}, {}},
+                   {1, {}, {}, Color{{1.0f, 0.9f, 0.68f}}, {}}};
+  }
+  for (TransferPoint& point : ramp.points) {
+    point.opacity.reset();
+    point.mu_t_per_mm = 1;
+  }
+  ramp_.emplace(ramp);
+  out.on = true;
+  out.ramp = ramp_->view();
+  const Double3& d = illustration.direction;
+  Vec3f to_light(Vec3d(d[0], d[1], d[2]));
+  if (illustration.attached_to == Attachment::kCamera) {
+    const ViewFrame frame = view_frame(view_.camera);
+    to_light = frame.right * to_light.x + frame.up * to_light.y + frame.toward_eye * to_light.z;
+  }
+  out.to_light = normalize(to_light);
+  out.contour = static_cast<float>(illustration.contour);
+  out.contour_width = static_cast<float>(illustration.contour_width);
+  out.contour_color = to_vec(illustration.contour_color);
 }
 
 void CompiledScene::put_image(const SceneDescription& description) {

@@ -61,6 +61,7 @@ class CompiledScene {
                       const SceneSphere& sphere);
   void put_medium(Parts& parts, const SceneDescription& local);
   void put_scattering(Parts& parts, const SceneDescription& description);
+  void put_illustration(const SceneDescription& description);
   void put_image(const SceneDescription& description);
   void warn_of_values(const VolumeStatistics& statistics);
 
@@ -77,6 +78,7 @@ class CompiledScene {
   std::optional<Classifier> classifier_;
   std::optional<Accelerator> accelerator_;
   std::optional<Lights> lights_;
+  std::optional<TransferFunction> ramp_;  ///< of an illustration
   double majorant_build_ms_ = 0;
   SceneView view_;
 };

@@ -163,6 +163,10 @@ void visit_fields(V&& visit, Struct<SceneDescription>) {
   visit({.key = "material", .doc = "How matter scatters."}, &T::material);
   visit({.key = "materials", .doc = "Materials that rules name, beside the library's.", .max_count = 1024},
         &T::materials);
+  visit({.key = "illustration",
+         .doc = "Toon or warm-cool shading with contours, in place of light.",
+         .absent = "light transport"},
+        &T::illustration);
   visit({.key = "lights", .doc = "Lights; [] is none.", .absent = "the default lights", .max_count = 256},
         &T::lights);
   visit({.key = "environment", .doc = "Light from everywhere.", .absent = "the default environment"},

@@ -100,9 +100,12 @@ void visit_fields(V&& visit, Struct<ProxyDescription>) {
          .range = between(-2147483648.0, 4294967295.0),
          .max_count = 65536},
         &T::labels);
-  visit({.key = "lookup",
-         .doc = "linear interpolates between voxels; nearest takes whole numbers as they are (labels)."},
-        &T::lookup);
+  visit(
+      {.key = "lookup",
+       .doc = "linear interpolates between voxels; nearest takes whole numbers as they are (labels); smooth "
+              "takes the label that most of the 27 voxels around have, so that labels have no stairs, but "
+              "loses what is thinner than a voxel."},
+      &T::lookup);
 }
 
 inline StructInfo struct_info(Struct<RuleColumn>) {
@@ -233,6 +236,35 @@ void visit_fields(V&& visit, Struct<NamedMaterialDescription>) {
          .absent = kAsLike},
         &T::back_anisotropy);
   share("back_share", "Share of that lobe.", &T::back_share);
+}
+
+inline StructInfo struct_info(Struct<IllustrationDescription>) {
+  return {
+      "Illustration",
+      "A drawing in place of light transport: what a camera ray meets first has its albedo times the color "
+      "of a ramp, by how much it faces a light, and contours. Lights, environment and shadows are not used."};
+}
+template <class V>
+void visit_fields(V&& visit, Struct<IllustrationDescription>) {
+  using T = IllustrationDescription;
+  visit({.key = "ramp",
+         .doc = "Colors by the cosine between normal and light, from -1 to 1; only value and color are used. "
+                "Steps make a toon's flat tones. Empty is cool to warm.",
+         .max_count = 256},
+        &T::ramp);
+  visit({.key = "direction",
+         .doc = "From the scene to the light.",
+         .unit = "LPS, or the camera's right, up, toward the eye",
+         .is_direction = true},
+        &T::direction);
+  visit({.key = "attached_to", .doc = "What the direction is relative to."}, &T::attached_to);
+  visit({.key = "contour", .doc = "How much contours replace the color.", .range = between(0, 1)},
+        &T::contour);
+  visit({.key = "contour_width",
+         .doc = "Cosine between normal and view below which contours begin.",
+         .range = between(0, 1)},
+        &T::contour_width);
+  visit({.key = "contour_color", .doc = "Of contours.", .range = at_least(0)}, &T::contour_color);
 }
 
 }  // namespace voxlume

@@ -67,6 +67,14 @@ void check_light(const LightDescription& light, const std::string& where) {
   }
 }
 
+void check_illustration(const IllustrationDescription& illustration, const std::string& where) {
+  check_direction(illustration.direction, child_address(where, "direction"));
+  const std::string list = child_address(where, "ramp");
+  for (std::size_t i = 1; i < illustration.ramp.size(); ++i)
+    if (illustration.ramp[i].value < illustration.ramp[i - 1].value)
+      refuse(child_address(list, std::to_string(i)), "expected points sorted by value");
+}
+
 void check_clip(const ClipDescription& clip, const std::string& where) {
   const auto check = [&](const std::array<double, 2>& range, const char* key) {
     if (!(range[0] < range[1])) {
@@ -151,6 +159,7 @@ void validate_scene(const SceneDescription& scene, const std::string& where) {
       check_light((*scene.lights)[i], child_address(at("lights"), std::to_string(i)));
     }
   }
+  if (scene.illustration) check_illustration(*scene.illustration, at("illustration"));
   check_camera(scene.camera, at("camera"));
   if (scene.clip) check_clip(*scene.clip, at("clip"));
   check_image(scene.image, at("image"));

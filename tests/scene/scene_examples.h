@@ -39,6 +39,8 @@ inline SceneDescription full_scene() {
                   -0.8,
                   0.9},
                  {"thin", "", {}, 0.25, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}}};
+  s.illustration = IllustrationDescription{
+      {{0, 0.5, {}, Color{{0, 0, 1}}, {}}}, {0, 0, 2}, Attachment::kWorld, 0.25, 0.5, Color{{1, 0, 0}}};
   s.labels = LabelsDescription{"labels.nii.gz", "labels.txt", 0.75};
   s.material = {
       Shading::kBrdf, SurfaceShareForm::kThreshold, 0.7, false, -0.3, 0.9, 0.1, LobeModel::kParticles, 0.5};
