@@ -49,7 +49,7 @@ struct TransferPoint {
 
 /// A volume beside the main one that rules read: a file, or derived from another.
 enum class ProxyKind { kFile, kGradient, kSmoothed, kDistance };
-enum class Lookup { kLinear, kNearest, kSmooth };
+enum class Lookup { kLinear, kNearest };
 struct ProxyDescription {
   std::string name;  ///< what rules call it; neither "data" nor "opacity"
   ProxyKind kind = ProxyKind::kFile;
@@ -57,7 +57,7 @@ struct ProxyDescription {
   std::string of = "data";           ///< derived: the volume it is derived from
   double sigma_mm = 1;               ///< kSmoothed: of the Gaussian; > 0
   std::vector<std::int64_t> labels;  ///< kDistance: the labels that are inside
-  Lookup lookup = Lookup::kLinear;   ///< nearest, smooth: labels, never interpolated
+  Lookup lookup = Lookup::kLinear;   ///< nearest: labels, whole numbers that are never interpolated
   friend bool operator==(const ProxyDescription&, const ProxyDescription&) = default;
 };
 

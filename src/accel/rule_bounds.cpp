@@ -12,8 +12,7 @@ RuleBounds::RuleBounds(const GridView& main, int cell_voxels, CellOrder order,
     cells.complete = volume.covers_main && !volume.has_nonfinite;
     if (v == 0) continue;
     if (cells.by_labels)
-      cells.sets = label_sets_over(main, cell_voxels, order, volume.view.grid,
-                                   volume.view.smooth ? kSmoothLabelReach : 0);
+      cells.sets = label_sets_over(main, cell_voxels, order, volume.view.grid);
     else
       cells.ranges = value_ranges_over(main, cell_voxels, order, volume.view.grid);
   }

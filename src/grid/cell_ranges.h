@@ -38,9 +38,6 @@ struct LabelSets {
 /// is; for labels on the main volume's own grid exactly those whose voxels the cell touches. NaN is no label.
 /// The result is the same for any number of threads. Throws Error kOutOfMemory when the sets together hold
 /// 2^32 labels or more (noise). `cell_voxels` >= 1.
-/// `reach`: labels of voxels up to this far from the nearest ones count as well (kSmoothLabelReach for
-/// sample_smooth_label).
-LabelSets label_sets_over(const GridView& main, int cell_voxels, CellOrder order, const GridView& labels,
-                          int reach = 0);
+LabelSets label_sets_over(const GridView& main, int cell_voxels, CellOrder order, const GridView& labels);
 
 }  // namespace voxlume

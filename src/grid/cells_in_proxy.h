@@ -34,16 +34,13 @@ class CellsInProxy {
                   });
   }
 
-  /// The voxels that may be the nearest to a point of the cell, and those up to `reach` from them.
-  VoxelBox nearest(std::int32_t i, std::int32_t j, std::int32_t k, int reach) const {
-    return voxels(
-        i, j, k,
-        [reach](double lower, double upper, std::int32_t n, std::int32_t& first, std::int32_t& last) {
-          first = std::min(static_cast<std::int32_t>(std::max(lower + 0.5, 0.0)), n - 1);
-          last = std::min(static_cast<std::int32_t>(std::max(upper + 0.5, 0.0)), n - 1);
-          first = std::max(first - reach, 0);
-          last = std::min(last + reach, n - 1);
-        });
+  /// The voxels that may be the nearest to a point of the cell.
+  VoxelBox nearest(std::int32_t i, std::int32_t j, std::int32_t k) const {
+    return voxels(i, j, k,
+                  [](double lower, double upper, std::int32_t n, std::int32_t& first, std::int32_t& last) {
+                    first = std::min(static_cast<std::int32_t>(std::max(lower + 0.5, 0.0)), n - 1);
+                    last = std::min(static_cast<std::int32_t>(std::max(upper + 0.5, 0.0)), n - 1);
+                  });
   }
 
  private:

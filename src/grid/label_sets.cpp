@@ -108,8 +108,7 @@ class SetTable {
 
 }  // namespace
 
-LabelSets label_sets_over(const GridView& main, int cell_voxels, CellOrder order, const GridView& labels,
-                          int reach) {
+LabelSets label_sets_over(const GridView& main, int cell_voxels, CellOrder order, const GridView& labels) {
   constexpr std::int64_t kSlabBlocks = 16;
   const CellLayout layout(main, cell_voxels, order);
   const CellsInProxy cells(main, layout, labels);
@@ -126,7 +125,7 @@ LabelSets label_sets_over(const GridView& main, int cell_voxels, CellOrder order
       const auto visit = [&](std::int32_t i, std::int32_t j, std::int32_t k, std::int32_t count,
                              std::int64_t place) {
         for (std::int32_t x = 0; x < count; ++x) {
-          const VoxelBox box = cells.nearest(i + x, j, k, reach);
+          const VoxelBox box = cells.nearest(i + x, j, k);
           if (!box.empty()) sets.set_of_cell[place + x] = table.id_of(collector.collect(voxels, labels, box));
         }
       };

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "grid/sample.h"
-
 namespace voxlume {
 namespace {
 
@@ -51,7 +49,7 @@ Vec3f kernel_reach(const GridView& grid) {
 
 /// Gradient, by index, of the smoothed share of labels other than `own`.
 template <class T>
-Vec3f share_gradient(const T* voxels, const Taps (&taps)[3], float own) noexcept {
+Vec3f share_gradient(const T* voxels, const Taps (&taps)[3], T own) noexcept {
   Vec3f gradient;
   for (int k = 0; k < taps[2].count; ++k) {
     float weight = 0, slope_i = 0, slope_j = 0;  // of this slice
@@ -59,7 +57,7 @@ Vec3f share_gradient(const T* voxels, const Taps (&taps)[3], float own) noexcept
       const T* row = voxels + taps[2].offset[k] + taps[1].offset[j];
       float row_weight = 0, row_slope = 0;
       for (int i = 0; i < taps[0].count; ++i) {
-        const float other = static_cast<float>(row[taps[0].offset[i]]) == own ? 0.0f : 1.0f;
+        const float other = row[taps[0].offset[i]] == own ? 0.0f : 1.0f;
         row_weight += other * taps[0].weight[i];
         row_slope += other * taps[0].slope[i];
       }
@@ -75,19 +73,19 @@ Vec3f share_gradient(const T* voxels, const Taps (&taps)[3], float own) noexcept
 }  // namespace
 
 Vec3f label_normal(const GridView& labels, Vec3f p_index) noexcept {
-  return label_normal(labels, p_index, sample_nearest(labels, p_index));
-}
-
-Vec3f label_normal(const GridView& labels, Vec3f p_index, float label) noexcept {
   const Box3f box = labels.index_box();
   const Vec3f p = min(max(p_index, box.lower), box.upper);
   const std::int64_t stride[3] = {1, labels.stride_j, labels.stride_k};
+  std::int64_t nearest = 0;
+  for (int a = 0; a < 3; ++a)
+    nearest += static_cast<std::int64_t>(std::min(p[a] + 0.5f, labels.size[a] - 1.0f)) * stride[a];
   const Vec3f reach = kernel_reach(labels);
   const Taps taps[3] = {{p.x, reach.x, labels.size[0], stride[0]},
                         {p.y, reach.y, labels.size[1], stride[1]},
                         {p.z, reach.z, labels.size[2], stride[2]}};
   const Vec3f gradient = with_voxels(labels.type, labels.voxels, [&](const auto* voxels) {
-    return label == label ? share_gradient(voxels, taps, label) : Vec3f(0);
+    const auto own = voxels[nearest];
+    return own == own ? share_gradient(voxels, taps, own) : Vec3f(0);
   });
   // Smoothed, a straight boundary is as steep as the kernel is narrow along its normal.
   const float steepness = length(gradient * reach) * kArea;

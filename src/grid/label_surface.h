@@ -14,7 +14,4 @@ namespace voxlume {
 /// some 700 voxels.
 Vec3f label_normal(const GridView& labels, Vec3f p_index) noexcept;
 
-/// The same for the surface of `label`, whatever the nearest voxel has.
-Vec3f label_normal(const GridView& labels, Vec3f p_index, float label) noexcept;
-
 }  // namespace voxlume

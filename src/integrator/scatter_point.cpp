@@ -56,7 +56,7 @@ Vec3f data_normal(const SceneView& scene, const Classified& matter, Vec3f p_inde
       sample_gradient(surface.grid, surface.index_of(p_index)) * -surface.inverse_gradient_scale;
   if (matter.label_volume < 0) return of_data;
   const RuleVolumeView& labels = scene.medium.rules.volumes[matter.label_volume];
-  const Vec3f of_labels = label_normal(labels.grid, labels.index_of(p_index), look_up(labels, p_index));
+  const Vec3f of_labels = label_normal(labels.grid, labels.index_of(p_index));
   return of_labels + of_data * (1.0f - std::min(length(of_labels), 1.0f));
 }
 

@@ -317,10 +317,15 @@ void CompiledScene::put_illustration(const SceneDescription& description) {
   TransferDescription ramp;
   ramp.reference_length_mm = 1;
   ramp.points = illustration.ramp;
-  if (ramp.points.empty()) {
-    ramp.points = {{-1, {}, {}, Color{{0.16f, 0.2f, 0.42f}}, {}},
-                   {1, {}, {}, Color{{1.0f, 0.9f, 0.68f}}, {}}};
-  }
+  const auto tone = [](double cosine, Color color) {
+    TransferPoint point;
+    point.value = cosine;
+    point.color = color;
+    return point;
+  };
+  if (ramp.points.empty())
+    ramp.points = {tone(-0.6, {{0.05f, 0.07f, 0.2f}}), tone(0.2, {{0.3f, 0.28f, 0.34f}}),
+                   tone(0.95, {{1.0f, 0.92f, 0.72f}})};
   for (TransferPoint& point : ramp.points) {
     point.opacity.reset();
     point.mu_t_per_mm = 1;

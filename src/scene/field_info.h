@@ -87,7 +87,7 @@ struct EnumWords<ProxyKind> {
 };
 template <>
 struct EnumWords<Lookup> {
-  static constexpr std::array<std::string_view, 3> kWords{"linear", "nearest", "smooth"};
+  static constexpr std::array<std::string_view, 2> kWords{"linear", "nearest"};
 };
 template <>
 struct EnumWords<RuleKind> {

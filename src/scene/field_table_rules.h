@@ -100,12 +100,9 @@ void visit_fields(V&& visit, Struct<ProxyDescription>) {
          .range = between(-2147483648.0, 4294967295.0),
          .max_count = 65536},
         &T::labels);
-  visit(
-      {.key = "lookup",
-       .doc = "linear interpolates between voxels; nearest takes whole numbers as they are (labels); smooth "
-              "takes the label that most of the 27 voxels around have, so that labels have no stairs, but "
-              "loses what is thinner than a voxel."},
-      &T::lookup);
+  visit({.key = "lookup",
+         .doc = "linear interpolates between voxels; nearest takes whole numbers as they are (labels)."},
+        &T::lookup);
 }
 
 inline StructInfo struct_info(Struct<RuleColumn>) {

@@ -132,8 +132,7 @@ void RuleVolumes::add(const ProxyDescription& proxy, Volume volume, const Double
   const GridView& main = volumes_.front().view.grid;
   view.is_main_grid = same_grid(view.grid, main);
   view.index_from_main = composed(view.grid.index_from_world, main.world_from_index);
-  view.nearest = proxy.lookup != Lookup::kLinear;
-  view.smooth = proxy.lookup == Lookup::kSmooth;
+  view.nearest = proxy.lookup == Lookup::kNearest;
   view.surface_volume = view.nearest ? 0 : static_cast<std::int32_t>(volumes_.size());
   const VolumeStatistics statistics = compute_statistics(view.grid);
   const std::string file = proxy.kind == ProxyKind::kFile ? proxy.path : where;

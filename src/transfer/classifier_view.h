@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "grid/sample_label.h"
+#include "grid/sample.h"
 #include "transfer/transfer_view.h"
 #include "voxlume/scene.h"
 
@@ -80,7 +80,6 @@ struct RuleVolumeView {
   Affinef index_from_main;  ///< p_index of this volume from p_index of the main one
   bool is_main_grid = true;
   bool nearest = false;  ///< labels: never interpolated
-  bool smooth = false;   ///< labels by sample_smooth_label, else by the nearest voxel
   /// The volume whose gradient is the normal of surfaces in this one: itself, or the one that it measures.
   std::int32_t surface_volume = 0;
   float inverse_gradient_scale = 1;  ///< 1 / its usual gradient magnitude [mm per data unit]
@@ -105,8 +104,7 @@ inline float look_up(const RuleVolumeView& volume, Vec3f p_main) noexcept {
   const Vec3f p = volume.index_of(p_main);
   if (!volume.is_main_grid && !volume.grid.index_box().contains(p))
     return std::numeric_limits<float>::quiet_NaN();
-  if (!volume.nearest) return sample_trilinear(volume.grid, p);
-  return volume.smooth ? sample_smooth_label(volume.grid, p) : sample_nearest(volume.grid, p);
+  return volume.nearest ? sample_nearest(volume.grid, p) : sample_trilinear(volume.grid, p);
 }
 
 /// The volumes' values at one point, each looked up when it is first asked for.
