@@ -278,7 +278,7 @@ TEST(FileDenoiser, ADamagedSceneIsAnErrorWhereItIsNeeded) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::kBadFormat);
-    EXPECT_THAT(error.what(), HasSubstr("f.exr: its scene (\"voxlume:scene\") cannot be read"));
+    EXPECT_THAT(error.what(), HasSubstr("f.exr: its scene cannot be read: voxlume:scene: line 1"));
   }
   EXPECT_FALSE(std::filesystem::exists(folder / "o.png"));
 }
