@@ -14,7 +14,7 @@ namespace voxlume::study {
 struct Options {
   std::filesystem::path folder;
   int width = 320, height = 180;
-  int frames = 120, every = 6;  ///< every so many frames one is compared
+  int frames = 120, every = 4;  ///< every so many frames one is compared
   int warm_up = 0;              ///< frames rendered before one that is compared; 0: all
   int reference_spp = 512;
   std::vector<int> spp{2, 30};
