@@ -20,6 +20,19 @@
 namespace voxlume::cli {
 namespace {
 
+/// A picture whose values can be compared.
+Image read_finite(const std::string& path) {
+  Image image = read_image(path);
+  for (std::size_t i = 0; i < image.rgba.size(); ++i) {
+    if (i % 4 == 3 || std::isfinite(image.rgba[i])) continue;
+    const std::size_t pixel = i / 4, width = static_cast<std::size_t>(image.width);
+    throw Error(ErrorCode::kBadParameter, path,
+                fmt::format("has a value that is not finite at pixel {},{}; expected finite values",
+                            pixel % width, pixel / width));
+  }
+  return image;
+}
+
 /// The two pictures, and what several uses share.
 class Comparison {
  public:
@@ -100,6 +113,7 @@ void check_error_map(const CompareRequest& request) {
   if (picture_format(request.error_map, "--error-map") != PictureFormat::kPng) {
     throw Error(ErrorCode::kUnsupported, "--error-map", "expected a name ending in .png");
   }
+  check_not_input(request.error_map, {request.image, request.reference}, "--error-map");
   check_writable(request.error_map, "--error-map");
 }
 
@@ -139,8 +153,8 @@ void print_metrics(Comparison& pair, const std::vector<const Metric*>& metrics, 
 int compare(const CompareRequest& request) {
   const auto metrics = chosen_metrics(request.metrics);
   check_error_map(request);
-  Image image = read_image(request.image);
-  Image reference = read_image(request.reference);
+  Image image = read_finite(request.image);
+  Image reference = read_finite(request.reference);
   if (image.width != reference.width || image.height != reference.height) {
     throw Error(ErrorCode::kBadParameter, request.reference,
                 fmt::format("is {} x {} pixels, expected {} x {} as {} has", reference.width,

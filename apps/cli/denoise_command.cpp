@@ -128,7 +128,8 @@ int denoise(const DenoiseRequest& request) {
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (interrupt.flag()) {
       progress.clear();
-      fmt::print(stderr, "interrupted; {} of {} pictures are written\n", i, steps.size());
+      fmt::print(stderr, "interrupted; {} of {} pictures are written; --overwrite does all of them again\n",
+                 i, steps.size());
       return kInterrupted;
     }
     progress.show(progress_text(progress_at(i, steps.size(), start)));
@@ -140,8 +141,9 @@ int denoise(const DenoiseRequest& request) {
 
 constexpr const char* kNotes = R"(
 A sequence is processed in order, each frame with what was learned from those before. Pictures to be denoised
-are rendered with --aov denoise. Pictures of other programs need the layers normal and albedo for most methods
-and none for wrls. PNG is developed as the scene of the picture says.
+are rendered with --aov denoise. Pictures of other programs lack what decoupled and xu2024 read: take --method
+wrls, which needs no layers, or svgf, which needs normal and albedo. PNG is developed as the scene of the
+picture says.
 
 Examples:
   voxlume render phantom -o frame-####.exr --turntable 4 --spp 4 --aov denoise

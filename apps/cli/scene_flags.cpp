@@ -179,7 +179,8 @@ constexpr Row kRows[] = {
     {"--light-sampling", "NAME", "/render/light_sampling",
      "mis, light or direction: how scatterings gather light"},
     {"--denoise", "NAME", "/render/denoise",
-     "decoupled, svgf, asvgf, atrous, bilateral, wrls, rls, oidn or none: take noise out of the picture"},
+     "decoupled, svgf, asvgf, atrous, bilateral, wrls, rls, wrls-no-feature, rls-no-feature, xu2024, oidn or "
+     "none: take noise out of the picture"},
     {"--simd", "NAME", "/render/simd", "auto, scalar, sse4, avx2, avx512 or neon"},
     {"--accel", "NAME", "/render/accelerator", "auto, none, macrocell, octree, hierarchy or residency"},
     {"--important", "RANGE", "/render", "Not built yet", not_built},

@@ -2,12 +2,14 @@
 // references of many samples; measures steadiness, convergence, ablations. Leaves CSVs and pictures in a
 // folder, from which tools/experiments/denoise_page.py makes the page; what is there already is left alone.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include "study.h"
 #include "voxlume/error.h"
@@ -51,6 +53,43 @@ void note_settings(const Options& o) {
                       o.history, o.seeds, o.rest);
 }
 
+/// Everything that tables and references depend on, one option a line; which sequences and parts there are is
+/// free to change from run to run.
+std::string options_text(const Options& o) {
+  return fmt::format(
+      "width {}\nheight {}\nframes {}\nmedia-frames {}\nevery {}\nwarm-up {}\nneural-every {}\nreference-spp "
+      "{}\nspp {}\n"
+      "moments {}\nhistory {}\nseeds {}\nrest {}\nsweep {}\nenvironment {}\nall-methods {}\n",
+      o.width, o.height, o.frames, o.media_frames, o.every, o.warm_up, o.neural_every, o.reference_spp,
+      fmt::join(o.spp, ","), fmt::join(o.moments, ","), o.history, o.seeds, o.rest, fmt::join(o.sweep, ","),
+      o.environment.empty() ? "constant" : o.environment, o.all_methods);
+}
+
+/// A folder goes on as it began: what is there would else pass for a result of other settings.
+void claim_folder(const Options& o) {
+  const std::filesystem::path path = o.folder / "options.txt";
+  std::filesystem::create_directories(o.folder);
+  if (!std::filesystem::exists(path)) {
+    for (const auto& entry : std::filesystem::directory_iterator(o.folder)) {
+      if (entry.path().extension() != ".csv" && entry.path().filename() != "references") continue;
+      throw Error(ErrorCode::kBadParameter, o.folder.string(),
+                  "has results of unknown options (no options.txt); use another folder or remove it");
+    }
+    std::ofstream(path) << options_text(o);
+    return;
+  }
+  std::ifstream there(path);
+  std::istringstream now(options_text(o));
+  std::string before, wanted;
+  while (std::getline(now, wanted)) {
+    if (std::getline(there, before) && before == wanted) continue;
+    throw Error(
+        ErrorCode::kBadParameter, o.folder.string(),
+        fmt::format("has results of other options (--{} there, --{} now); use another folder or remove it",
+                    before, wanted));
+  }
+}
+
 /// Seconds that parts took, one line for each that did something.
 void note_time(const Options& o, const std::string& part, double seconds) {
   constexpr double kNothingToDo = 3;
@@ -92,7 +131,7 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   if (o.media == std::vector<std::string>{"none"}) o.media.clear();
   try {
-    std::filesystem::create_directories(o.folder);
+    claim_folder(o);
     note_settings(o);
     for (const auto& [name, run] : kParts) {
       if (!parts.empty() && std::ranges::find(parts, name) == parts.end()) continue;

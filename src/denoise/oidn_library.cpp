@@ -27,7 +27,8 @@ std::shared_ptr<void> open_library() {
   const char* chosen = std::getenv(kVariable);
   if (chosen && *chosen) {
     if (auto handle = open(chosen)) return handle;
-    throw Error(ErrorCode::kUnsupported, kVariable, fmt::format("cannot be loaded: {}", dlerror()));
+    throw Error(ErrorCode::kUnsupported, kVariable,
+                fmt::format("\"{}\" cannot be loaded: {}", chosen, dlerror()));
   }
   std::string names;
   for (const char* name : kSystemNames) {
@@ -47,9 +48,13 @@ template <class Function>
 void OidnLibrary::find(Function& function, const char* name, const char* name_in_version_1) {
   void* symbol = dlsym(handle_.get(), name);
   if (!symbol && name_in_version_1) symbol = dlsym(handle_.get(), name_in_version_1);
-  if (!symbol)
-    throw Error(ErrorCode::kUnsupported, "",
-                fmt::format("no function {} in what should be Open Image Denoise, version 1 or 2", name));
+  if (!symbol) {
+    const char* chosen = std::getenv(kVariable);
+    const bool by_user = chosen && *chosen;
+    throw Error(ErrorCode::kUnsupported, by_user ? kVariable : "",
+                fmt::format("no function {} in {}; expected Open Image Denoise, version 1 or 2", name,
+                            by_user ? fmt::format("\"{}\"", chosen) : "the system's libOpenImageDenoise"));
+  }
   function = reinterpret_cast<Function>(symbol);
 }
 

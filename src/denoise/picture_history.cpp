@@ -19,6 +19,8 @@ constexpr float kLeastFilteredGain = 0.15f, kLeastResidualGain = 0.03f;
 /// How far the residual's innovations may exceed what is expected of their squares, and of the square of
 /// their mean, before they count as a change.
 constexpr float kSquareMargin = 1.2f, kMeanMargin = 2;
+/// Sums of squares of such luminances are finite.
+constexpr float kLargestLight = 1e17f;
 /// Pixels of a LocalMean.
 constexpr float kWindow = (2 * LocalMean::kRadius + 1) * (2 * LocalMean::kRadius + 1);
 
@@ -45,6 +47,15 @@ void variance_row(const DenoiseFrame& frame, const Plane& local_luminance, int y
     const auto single = hn::Lt(load(frame.samples, x, y), hn::Set(kD, 1.5f));
     store(hn::IfThenElse(single, squared(apart), load(frame.variance, x, y)), out, x, y, lanes);
   });
+}
+
+/// What the spatial filters made of a pixel; the plain mean where that cannot be light (or is no number).
+HWY_INLINE F3 load_filtered(const DenoiseFrame& frame, const DenoisedFrame& picture, int x, int y) {
+  const F3 filtered = load(picture.radiance, x, y);
+  const F largest = hn::Max(hn::Max(hn::Abs(filtered.x), hn::Abs(filtered.y)), hn::Abs(filtered.z));
+  const F sum = hn::Add(hn::Add(filtered.x, filtered.y), filtered.z);  // not a number if one of them is none
+  const auto is_light = hn::And(hn::Le(largest, hn::Set(kD, kLargestLight)), hn::Eq(sum, sum));
+  return choose(is_light, filtered, load(frame.radiance, x, y));
 }
 
 /// Four pixels around where a pixel was in the frame before, and how much each counts.
@@ -99,6 +110,7 @@ HWY_INLINE F3 gather(const Planes3& planes, const Bilinear& at) {
   return {gather(planes[0], at), gather(planes[1], at), gather(planes[2], at)};
 }
 
+/// False of what is no number, too.
 HWY_INLINE hn::Mask<Floats> is_known(const PictureMemory& prior, int x, int y) {
   return hn::Lt(load(prior.residual_variance, x, y), hn::Set(kD, 0.5f * PictureMemory::kUnknown));
 }
@@ -121,7 +133,7 @@ void predict_row(const DenoiseFrame& frame, const DenoisedFrame& picture, const 
           lanes);
     store(hn::IfThenElse(known, gather(memory.residual_variance, at), unknown), prior.residual_variance, x, y,
           lanes);
-    const F3 now = load(picture.radiance, x, y);
+    const F3 now = load_filtered(frame, picture, x, y);
     const F3 off_filtered = choose(known, sub(now, filtered), zero3());
     const F3 residual_now = sub(load(frame.radiance, x, y), now);
     const F off_residual = hn::IfThenElseZero(known, luminance(sub(residual_now, residual)));
@@ -167,7 +179,11 @@ void update_row(const DenoiseFrame& frame, const PictureMemory& prior, const Pla
                 const Innovation& off, const Plane& variance, int y, DenoisedFrame& picture,
                 PictureMemory& now) {
   for_row(frame.width, [&](int x, std::size_t lanes) {
-    const auto known = is_known(prior, x, y);
+    // Innovations that are no numbers or infinite have nothing to say of the past.
+    const F all = hn::Add(hn::Add(load(off.filtered_squared, x, y), load(off.residual_squared, x, y)),
+                          hn::Add(hn::Abs(luminance(load(prior.filtered, x, y))),
+                                  hn::Abs(luminance(load(prior.residual, x, y)))));
+    const auto known = hn::And(is_known(prior, x, y), hn::Lt(all, hn::Set(kD, PictureMemory::kUnknown)));
     const F v = load(variance, x, y), filtered_noise = hn::Mul(v, hn::Set(kD, kFilteredVariance));
     const LightChange light = light_change(off, prior_mean, v, x, y);
     const F filtered_prior = load(prior.filtered_variance, x, y);
@@ -180,7 +196,7 @@ void update_row(const DenoiseFrame& frame, const PictureMemory& prior, const Pla
         hn::NegMulAdd(expected, hn::Set(kD, kMeanMargin / kWindow), squared(load(off.residual, x, y)));
     const F k_residual =
         gain(known, residual_prior, positive(hn::Max(beyond_square, beyond_mean)), v, kLeastResidualGain);
-    const F3 filtered = load(picture.radiance, x, y);
+    const F3 filtered = load_filtered(frame, picture, x, y);
     const F3 residual = sub(load(frame.radiance, x, y), filtered);
     const F alpha = load(picture.alpha, x, y), alpha_residual = hn::Sub(load(frame.alpha, x, y), alpha);
     const F3 filtered_before = choose(known, multiply(load(prior.filtered, x, y), light.factor), filtered);

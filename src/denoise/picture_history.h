@@ -14,7 +14,7 @@ struct PictureMemory {
   Plane depth_mm;                              ///< of the frame
 
   /// Variance where nothing is remembered, beyond any that light has.
-  static constexpr float kUnknown = 1e30f;
+  static constexpr float kUnknown = 1e36f;
 
   /// Makes all planes anew, of zeros.
   void resize(int width, int height);

@@ -61,7 +61,11 @@ void Film::add(int x, int y, const PixelSample& sample) noexcept {
     classes_[i].first_luminance = luminance(sample.radiance);
     classes_[i].first_depth_mm = sample.depth_mm;
   }
-  ++counts_[i];
+  if (++counts_[i] % kBlock == 0) {
+    const double total = luminance(sums.radiance), block = total - sums.block_luminance;
+    sums.block_squares += block * block;
+    sums.block_luminance = total;
+  }
 
   double alpha = sample.alpha;
   if (!std::isfinite(alpha)) {
@@ -128,9 +132,10 @@ double Film::depth_mm(int x, int y) const noexcept {
 }
 
 double Film::noise() const noexcept {
+  const std::vector<float> shares = variance_shares();
   double sum = 0;
   for (std::size_t i = 0; i < pixel_count(); ++i) {
-    sum += std::sqrt(variance_of_mean_at(i)) / (luminance(mean_at(i)) + 0.01);
+    sum += std::sqrt(shares[i] * variance_of_mean_at(i)) / (luminance(mean_at(i)) + 0.01);
   }
   return sum / static_cast<double>(pixel_count());
 }

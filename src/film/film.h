@@ -89,7 +89,8 @@ class Film {
   Vec3d mean(int x, int y) const noexcept;
   /// Share of samples that scattered, [0,1].
   double alpha(int x, int y) const noexcept;
-  /// Unbiased estimate of the variance of the mean's luminance; zero for fewer than two samples.
+  /// Estimate of the variance of the mean's luminance, unbiased for samples that are independent of each
+  /// other; zero for fewer than two samples.
   double variance_of_mean(int x, int y) const noexcept;
   /// Square root of variance_of_mean().
   double standard_error(int x, int y) const noexcept;
@@ -103,8 +104,14 @@ class Film {
   const PixelClasses& classes(int x, int y) const noexcept { return classes_[index(x, y)]; }
 
   // Of the picture.
-  /// Mean over pixels of standard error / (luminance + 0.01): the quantity that `--noise` bounds. Meaningful
-  /// once pixels have several samples.
+  /// What to multiply variance_of_mean() by, pixel by pixel, row after row: samples that are stratified
+  /// against each other have less of it. Measured by how sums of kBlock consecutive samples differ; 1 in
+  /// pixels with fewer than two of them.
+  std::vector<float> variance_shares() const;
+  /// Samples, the first a multiple of it, that are stratified against each other.
+  static constexpr std::uint32_t kBlock = 16;
+  /// Mean over pixels of standard error / (luminance + 0.01), with variance_shares(): the quantity that
+  /// `--noise` bounds. Meaningful once pixels have several samples.
   double noise() const noexcept;
   /// Mean over pixels of the luminance of mean().
   double mean_luminance() const noexcept;
@@ -124,11 +131,14 @@ class Film {
     Vec3d radiance;
     double luminance_squared = 0;
     double alpha = 0;
+    double block_luminance = 0;  ///< sum over whole blocks of kBlock samples
+    double block_squares = 0;    ///< sum over whole blocks of the square of what each has
   };
 
   std::size_t index(int x, int y) const noexcept { return static_cast<std::size_t>(y) * width_ + x; }
   Vec3d mean_at(std::size_t i) const noexcept;
   double variance_of_mean_at(std::size_t i) const noexcept;
+  double variance_between_blocks_at(std::size_t i) const noexcept;
 
   int width_, height_;
   FilmLayers layers_;

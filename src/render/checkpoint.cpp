@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 // The file: Header, fingerprint, the film's accumulators, CRC-32 of all before it. Numbers lie as in memory.
 constexpr std::array<char, 8> kMagic{'V', 'X', 'L', 'C', 'H', 'K', 'P', 'T'};
-constexpr std::uint32_t kFormatVersion = 1;
+constexpr std::uint32_t kFormatVersion = 2;
 constexpr std::uint32_t kByteOrder = 0x01020304;
 constexpr std::uint32_t kMaxSide = 65536;
 

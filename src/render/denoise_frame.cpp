@@ -46,14 +46,17 @@ void fill_class(const ClassSums& sums, SampleClass& out, int x, int y) {
   set(out.later, x, y, sums.later * inverse);
 }
 
-void fill_pixel(const Film& film, const SceneView& scene, int x, int y, DenoiseFrame& frame) {
+/// `variance_share`: of the pixel (Film::variance_shares).
+void fill_pixel(const Film& film, const SceneView& scene, float variance_share, int x, int y,
+                DenoiseFrame& frame) {
   const PixelClasses& pixel = film.classes(x, y);
   const double samples = std::max(film.sample_count(x, y), 1u);
   const double scattered = pixel.classes[0].count + pixel.classes[1].count, missed = samples - scattered;
   const double luminance_sum = luminance(pixel.radiance);
   const double spread = pixel.luminance_squared - luminance_sum * luminance_sum / samples;
   frame.variance.at(x, y) =
-      samples > 1 ? static_cast<float>(std::max(0.0, spread) / (samples - 1) / samples) : 0.0f;
+      samples > 1 ? static_cast<float>(variance_share * std::max(0.0, spread) / (samples - 1) / samples)
+                  : 0.0f;
   frame.samples.at(x, y) = static_cast<float>(film.sample_count(x, y));
   frame.alpha.at(x, y) = static_cast<float>(scattered / samples);
   frame.depth_mm.at(x, y) = pixel.dense_depth_mm > 0 ? pixel.dense_depth_mm : pixel.median_depth_mm;
@@ -75,8 +78,11 @@ void fill_denoise_frame(const Film& film, const SceneView& scene, float size_mm,
   }
   frame.camera = scene.camera;
   frame.size_mm = size_mm;
-  parallel_for(film.height(), 8, [&](std::int64_t y) {
-    for (int x = 0; x < film.width(); ++x) fill_pixel(film, scene, x, static_cast<int>(y), frame);
+  const std::vector<float> shares = film.variance_shares();
+  parallel_for(film.height(), 8, [&](std::int64_t row) {
+    const int y = static_cast<int>(row);
+    const float* const shares_of_row = shares.data() + static_cast<std::size_t>(y) * film.width();
+    for (int x = 0; x < film.width(); ++x) fill_pixel(film, scene, shares_of_row[x], x, y, frame);
   });
 }
 

@@ -9,6 +9,8 @@
 namespace voxlume {
 namespace {
 
+constexpr const char* kSceneText = "voxlume:scene";
+
 bool is_transparent(const Image& picture) {
   for (std::size_t i = 0; i < picture.pixel_count(); ++i) {
     if (picture.rgba[4 * i + 3] < 1) return true;
@@ -32,13 +34,12 @@ Image FileDenoiser::denoise(const Image& picture, const std::string& where) {
 
 void save_with_own_scene(const Image& picture, const std::string& where, const std::filesystem::path& path) {
   SceneDescription scene;
-  const auto text = picture.metadata.find("voxlume:scene");
+  const auto text = picture.metadata.find(kSceneText);
   if (!is_exr_name(path) && text != picture.metadata.end()) {
     try {
-      scene = parse_scene(text->second, "");
+      scene = parse_scene(text->second, kSceneText);
     } catch (const Error& error) {
-      throw Error(ErrorCode::kBadFormat, where,
-                  "its scene (\"voxlume:scene\") cannot be read: " + std::string(error.what()));
+      throw Error(ErrorCode::kBadFormat, where, "its scene cannot be read: " + std::string(error.what()));
     }
   } else if (is_transparent(picture)) {
     scene.background = BackgroundDescription{.kind = BackgroundKind::kTransparent};

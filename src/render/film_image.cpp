@@ -6,6 +6,8 @@
 namespace voxlume {
 namespace {
 
+constexpr const char* kVariance = "variance";
+
 // One row of the table in voxlume/image.h.
 struct LayerKind {
   const char* name;
@@ -30,7 +32,7 @@ const std::vector<LayerKind>& layer_kinds() {
        {.albedo = true},
        [](const Film& film, int x, int y) { return film.albedo(x, y); }},
       {"samples", {"Y"}, {}, [](const Film& film, int x, int y) { return Vec3d(film.sample_count(x, y)); }},
-      {"variance",
+      {kVariance,
        {"Y"},
        {},
        [](const Film& film, int x, int y) { return Vec3d(film.variance_of_mean(x, y)); }},
@@ -63,6 +65,10 @@ ImageLayer make_layer(const Film& film, const LayerKind& kind) {
         layer.values.push_back(static_cast<float>(value[c]));
       }
     }
+  }
+  if (layer.name == kVariance) {
+    const std::vector<float> shares = film.variance_shares();
+    for (std::size_t i = 0; i < shares.size(); ++i) layer.values[i] *= shares[i];
   }
   return layer;
 }

@@ -16,8 +16,11 @@ namespace {
 constexpr const char* kSizeText = "voxlume:size_mm";
 constexpr const char* kCameraText = "voxlume:camera";
 constexpr const char* kMatter = "matter";
-/// Larger values count as not finite, so that squares of values are finite.
-constexpr float kLargest = 1e18f;
+/// Larger values count as not finite, so that sums of squares of values are finite; the variance is a square.
+constexpr float kLargest = 1e16f, kLargestVariance = kLargest * kLargest;
+/// Of fx, in units of a white Lambert surface, and of samples: a pixel's fx meets the fl of others, times
+/// their samples.
+constexpr float kLargestShading = 1e9f, kMostSamples = 4294967296.0f;
 /// Of what is seen.
 constexpr float kMaxSize_mm = 1e9f;
 
@@ -59,6 +62,10 @@ std::vector<LayerPlanes<PlaneOf<Frame>>> layer_planes(Frame& frame, const Denois
     out.push_back(three(name + "later", one.later, "R", "G", "B"));
   }
   return out;
+}
+
+Vec3f at(const Planes3& planes, int x, int y) {
+  return {planes[0].at(x, y), planes[1].at(x, y), planes[2].at(x, y)};
 }
 
 /// One picture that is read.
@@ -163,21 +170,47 @@ class FrameReader {
       fail(fmt::format("layer \"class0.count\" is missing; render the picture with --aov {}", kDenoiseAov));
   }
 
+  bool classes_make_sense(int x, int y) const {
+    if (!frame_.classes) return true;
+    float samples = 0;
+    for (const SampleClass& one : *frame_.classes) {
+      const float count = one.count.at(x, y);
+      samples += count;
+      if (!(count >= 0)) return false;
+      for (const auto& [fx, fl] :
+           {std::pair(&one.fx_diffuse, &one.fl_diffuse), std::pair(&one.fx_specular, &one.fl_specular)}) {
+        const Vec3f shading = at(*fx, x, y), light = at(*fl, x, y);
+        if (!(min_component(shading) >= 0 && min_component(light) >= 0)) return false;
+        if (!(max_component(shading) <= kLargestShading)) return false;
+        if (!(max_component(shading) * max_component(light) <= kLargest)) return false;
+      }
+    }
+    return samples <= frame_.samples.at(x, y);
+  }
+
   void check_row(int y) {
     const auto layers = layer_planes(frame_, needs_);
     for (int x = 0; x < frame_.width; ++x) {
       bool bad = frame_.alpha.at(x, y) < 0 || frame_.depth_mm.at(x, y) < 0 || frame_.variance.at(x, y) < 0 ||
-                 frame_.samples.at(x, y) < 0;
-      for (int k = 0; frame_.classes && k < 2; ++k) bad |= (*frame_.classes)[k].count.at(x, y) < 0;
+                 frame_.samples.at(x, y) < 0 || frame_.samples.at(x, y) > kMostSamples;
       for (const auto& layer : layers) {
-        for (const auto& [channel, plane] : layer.channels) bad |= !(std::abs(plane->at(x, y)) <= kLargest);
+        for (const auto& [channel, plane] : layer.channels) {
+          const float largest = plane == &frame_.variance ? kLargestVariance : kLargest;
+          bad |= !(std::abs(plane->at(x, y)) <= largest);
+        }
       }
+      bad |= !classes_make_sense(x, y);
       if (bad) {
         make_empty(x, y, layers);
         continue;
       }
       frame_.alpha.at(x, y) = std::min(frame_.alpha.at(x, y), 1.0f);
-      for (Plane& plane : frame_.radiance) plane.at(x, y) = std::max(plane.at(x, y), 0.0f);
+      const auto make_light = [&](Planes3& planes) {
+        for (Plane& plane : planes) plane.at(x, y) = std::max(plane.at(x, y), 0.0f);
+      };
+      make_light(frame_.radiance);
+      make_light(frame_.background);
+      for (int k = 0; frame_.classes && k < 2; ++k) make_light((*frame_.classes)[k].later);
     }
   }
 

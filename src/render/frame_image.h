@@ -15,8 +15,8 @@ constexpr const char* kDenoiseAov = "denoise";
 void add_denoise_layers(const DenoiseFrame& frame, Image& image);
 
 /// The frame that a picture holds, for a method with these needs; what others would need as well is left out
-/// (classes) or zero. Values that are not finite or beyond 1e18, or negative where none can be, make the
-/// pixel empty.
+/// (classes) or zero. Values that are not finite or beyond 1e16, or negative where none can be, and
+/// classes of more samples than the pixel has make the pixel empty.
 ///
 /// A picture with the layer "matter" or a camera is voxlume's and has to have every layer that the needs
 /// name. In pictures of other programs everything is matter: radiance and alpha are R, G, B and A, and of the

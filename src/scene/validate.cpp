@@ -16,8 +16,13 @@ namespace {
   throw Error(ErrorCode::kBadParameter, where, message);
 }
 
-std::string expected_number(const char* noun, const FieldInfo& info) {
-  const std::string range = range_text(info.range);
+/// `found`: what is refused; a bound that it exceeds is named, though it be that of all numbers.
+std::string expected_number(const char* noun, const FieldInfo& info, double found) {
+  const NumberRange& all = info.range;
+  const std::string range =
+      found > all.upper && all.bounded_below() && !all.bounded_above()
+          ? fmt::format("in {}{}, {}]", all.open_lower ? '(' : '[', all.lower, all.upper)
+          : range_text(all);
   if (range.empty()) return fmt::format("a finite {} of magnitude at most {}", noun, kLargestNumber);
   return fmt::format("a {} {}", noun, range);
 }
@@ -113,19 +118,19 @@ std::string child_address(const std::string& where, std::string_view key) {
 
 void check_field(double value, const FieldInfo& info, const std::string& where) {
   if (info.range.contains(value)) return;
-  refuse(where, fmt::format("found {}, expected {}", value, expected_number("number", info)));
+  refuse(where, fmt::format("found {}, expected {}", value, expected_number("number", info, value)));
 }
 
 void check_integer(std::int64_t value, const FieldInfo& info, const std::string& where) {
   if (info.range.contains(static_cast<double>(value))) return;
-  refuse(where, fmt::format("found {}, expected {}", value, expected_number("whole number", info)));
+  refuse(where, fmt::format("found {}, expected {}", value, expected_number("whole number", info, value)));
 }
 
 void check_field(const Color& value, const FieldInfo& info, const std::string& where) {
   for (const float channel : value.linear) {
     if (info.range.contains(channel)) continue;
     refuse(where, fmt::format("found a linear channel of {}, expected {}", channel,
-                              expected_number("number", info)));
+                              expected_number("number", info, channel)));
   }
 }
 

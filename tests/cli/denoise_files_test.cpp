@@ -191,15 +191,19 @@ TEST_F(CliDenoiseFiles, PicturesOfOtherPrograms) {
   ASSERT_EQ(denoise("x.exr", "o.png", {"--method", "wrls"}).code, 0);
   EXPECT_NE(picture("o.exr").rgba, image.rgba);
   expect_refused(denoise("x.exr", "p.exr", {"--method", "svgf"}), "layer \"normal\" is missing");
+  EXPECT_THAT(run({"denoise", "--help"}).out, HasSubstr("Pictures of other programs lack what decoupled"));
 }
 
 TEST_F(CliDenoiseFiles, ListsItsMethods) {
+  const std::string help = run({"render", "--help"}).out;
   const RunResult r = run({"denoise", "--method", "list"});
   EXPECT_EQ(r.code, 0);
   EXPECT_EQ(line_count(r.out), static_cast<int>(denoiser_kinds().size()));
   for (const DenoiserKind& kind : denoiser_kinds()) {
     EXPECT_THAT(r.out, HasSubstr(std::string(kind.name)));
     EXPECT_THAT(r.out, HasSubstr(std::string(kind.summary)));
+    EXPECT_THAT(help,
+                testing::ContainsRegex("--denoise NAME[^-]+.*[ ]" + std::string(kind.name) + "(,| or)"));
   }
 }
 
@@ -215,7 +219,7 @@ TEST_F(CliDenoiseFiles, StopsBetweenPictures) {
   process.signal(SIGINT);
   const RunResult r = process.wait();
   ASSERT_EQ(r.code, 130) << r.err;
-  EXPECT_THAT(r.err, HasSubstr("of 200 pictures are written"));
+  EXPECT_THAT(r.err, HasSubstr("of 200 pictures are written; --overwrite does all of them again"));
   EXPECT_FALSE(exists("o-199.exr"));
   for (const auto& entry : fs::directory_iterator(folder_)) {
     const std::string name = entry.path().filename().string();

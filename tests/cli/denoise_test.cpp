@@ -15,7 +15,7 @@ class CliDenoise : public CliTest {
  protected:
   Image picture(const std::string& name) const { return read_image(folder_ / name); }
   void render_ball(const std::string& out, const std::string& spp,
-                      const std::vector<std::string>& more = {}) const {
+                   const std::vector<std::string>& more = {}) const {
     std::vector<std::string> arguments{"render", "ball.nrrd", "-o", out, "--size", "64x64", "--spp", spp};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const RunResult r = run(arguments);
@@ -43,6 +43,17 @@ TEST_F(CliDenoise, ConvergesToThePlainPicture) {
       << "nearer to it than its own noise is large";
 }
 
+TEST_F(CliDenoise, IsNeverWorseThanThePlainPictureOfManySamples) {
+  render_ball("exact.exr", "4096", {"--seed", "9"});
+  for (const std::string spp : {"256", "1024"}) {
+    render_ball("noisy.exr", spp);
+    render_ball("o.exr", spp, {"--denoise", "decoupled"});
+    EXPECT_LT(rmse(picture("o.exr"), picture("exact.exr")),
+              1.05 * rmse(picture("noisy.exr"), picture("exact.exr")))
+        << spp;
+  }
+}
+
 TEST_F(CliDenoise, DoesNotDependOnTheNumberOfThreads) {
   render_ball("one.exr", "40", {"--denoise", "decoupled", "--threads", "1"});
   render_ball("all.exr", "40", {"--denoise", "decoupled"});
@@ -51,7 +62,7 @@ TEST_F(CliDenoise, DoesNotDependOnTheNumberOfThreads) {
 
 TEST_F(CliDenoise, KeepsTransparencyAndLayers) {
   render_ball("o.exr", "16",
-                 {"--denoise", "decoupled", "--background", "transparent", "--aov", "depth,albedo"});
+              {"--denoise", "decoupled", "--background", "transparent", "--aov", "depth,albedo"});
   const Image image = picture("o.exr");
   EXPECT_NE(image.layer("depth"), nullptr);
   EXPECT_NE(image.layer("albedo"), nullptr);

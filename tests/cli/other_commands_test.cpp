@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "cli_fixture.h"
@@ -91,6 +92,35 @@ TEST_F(CliTest, CompareOfDifferentPictures) {
   const RunResult sizes = run({"compare", "a.exr", "small.exr"});
   EXPECT_EQ(sizes.code, 2);
   EXPECT_THAT(sizes.err, HasSubstr("is 8 x 8 pixels, expected 24 x 20"));
+}
+
+TEST_F(CliTest, CompareLeavesItsInputsAlone) {
+  Image image(12, 12);
+  write_exr(image, folder_ / "a.exr");
+  ASSERT_EQ(run({"compare", "a.exr", "a.exr", "--error-map", "e.png"}).code, 0);
+  std::filesystem::copy_file(folder_ / "e.png", folder_ / "f.png");
+  std::filesystem::create_hard_link(folder_ / "f.png", folder_ / "g.png");
+  const std::string before = read("f.png");
+  for (const char* map : {"e.png", "f.png", "./f.png", "g.png"}) {
+    const RunResult r = run({"compare", "e.png", "f.png", "--error-map", map});
+    EXPECT_EQ(r.code, 2) << map;
+    EXPECT_EQ(r.out, "");
+    EXPECT_THAT(r.err, HasSubstr("--error-map: \"" + std::string(map) + "\" is an input of this command"));
+  }
+  EXPECT_EQ(read("f.png"), before);
+  EXPECT_EQ(read("e.png"), before);
+}
+
+TEST_F(CliTest, CompareNamesThePictureThatIsNotFinite) {
+  Image image(12, 12);
+  write_exr(image, folder_ / "a.exr");
+  image.pixel(3, 5)[1] = std::nanf("");
+  write_exr(image, folder_ / "b.exr");
+  for (const auto& [a, b] : {std::pair{"a.exr", "b.exr"}, {"b.exr", "a.exr"}}) {
+    const RunResult r = run({"compare", a, b});
+    EXPECT_EQ(r.code, 2);
+    EXPECT_THAT(r.err, HasSubstr("b.exr: has a value that is not finite at pixel 3,5"));
+  }
 }
 
 // A mid-grey picture against one that is black on the left: the right half is equal.

@@ -2,9 +2,11 @@
 
 #include <chrono>
 #include <csignal>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "base/vec.h"
 #include "cli_fixture.h"
 #include "image_io/image_io.h"
 
@@ -39,6 +41,40 @@ TEST_F(CliTest, PicturesDoNotDependOnThreads) {
   EXPECT_EQ(read_image(folder_ / "a.exr").rgba, read_image(folder_ / "b.exr").rgba);
   ASSERT_EQ(render("ball.nrrd", "c.exr", {"--seed", "1"}).code, 0);
   EXPECT_NE(read_image(folder_ / "a.exr").rgba, read_image(folder_ / "c.exr").rgba);
+}
+
+TEST_F(CliTest, NoiseEndsARenderWhereItIsReached) {
+  constexpr int kSeeds = 8;
+  constexpr double kAsked = 0.01;
+  std::map<std::string, double> samples;
+  for (const std::string sampler : {"sobol", "random"}) {
+    std::vector<double> sums, squares;
+    for (int seed = 1; seed <= kSeeds; ++seed) {
+      const RunResult r =
+          run({"render", "ball.nrrd", "-o", "o.exr", "--size", "40x40", "--noise", std::to_string(kAsked),
+               "--aov", "samples", "--seed", std::to_string(seed), "--set", "/render/sampler=" + sampler});
+      ASSERT_EQ(r.code, 0) << r.err;
+      const Image image = read_image(folder_ / "o.exr");
+      sums.resize(image.pixel_count());
+      squares.resize(image.pixel_count());
+      samples[sampler] += image.layer("samples")->values[0] / kSeeds;
+      for (std::size_t i = 0; i < image.pixel_count(); ++i) {
+        const float* const rgb = &image.rgba[4 * i];
+        const double y = luminance(Vec3d(rgb[0], rgb[1], rgb[2]));
+        sums[i] += y;
+        squares[i] += y * y;
+      }
+    }
+    // The mean of the standard deviation of eight normal numbers is 0.965 of the distribution's.
+    double noise = 0;
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      const double mean = sums[i] / kSeeds;
+      const double variance = std::max(0.0, squares[i] - mean * sums[i]) / (kSeeds - 1);
+      noise += std::sqrt(variance) / 0.965 / (mean + 0.01) / static_cast<double>(sums.size());
+    }
+    EXPECT_NEAR(noise, kAsked, 0.15 * kAsked) << sampler << ", " << samples[sampler] << " samples";
+  }
+  EXPECT_LT(samples["sobol"], 0.7 * samples["random"]);
 }
 
 TEST_F(CliTest, PicturesHoldTheSceneButNoPaths) {

@@ -108,6 +108,60 @@ TEST(Film, NoiseAndMeanLuminanceAreMeansOverPixels) {
   EXPECT_NEAR(film.noise(), 0.5 * 1.0 / 2.01, 1e-12);
 }
 
+TEST(Film, SharesOfVarianceAreOneOfIndependentSamples) {
+  std::mt19937 generator(5);
+  std::uniform_real_distribution<float> uniform;
+  for (const int samples : {31, 32, 80, 640}) {
+    Film film(64, 64);
+    for (int y = 0; y < 64; ++y) {
+      for (int x = 0; x < 64; ++x) {
+        for (int s = 0; s < samples; ++s) film.add(x, y, {.radiance = Vec3f(uniform(generator))});
+      }
+    }
+    const std::vector<float> shares = film.variance_shares();
+    ASSERT_EQ(shares.size(), 64u * 64);
+    double mean = 0;
+    for (const float share : shares) mean += share / 4096;
+    // The variance of n blocks has the relative variance 2 / (n - 1).
+    const int blocks = samples / 16;
+    if (blocks < 2) {
+      EXPECT_EQ(mean, 1);
+    } else {
+      EXPECT_LT(std::abs(mean - 1), 4 * std::sqrt(2.0 / (blocks - 1) / 4096)) << samples;
+    }
+  }
+}
+
+TEST(Film, SharesOfVarianceAreThoseOfStratifiedSamples) {
+  std::mt19937 generator(6);
+  std::uniform_real_distribution<float> uniform;
+  for (const int samples : {32, 40, 160}) {
+    Film film(32, 32);
+    for (int y = 0; y < 32; ++y) {
+      for (int x = 0; x < 32; ++x) {
+        // In a corner they are independent: stratification helps there by nothing.
+        const bool stratified = x >= 16 || y >= 16;
+        for (int s = 0; s < samples; ++s) {
+          const float u = uniform(generator), stratum = static_cast<float>(s * 7 % 16);
+          film.add(x, y, {.radiance = Vec3f(stratified ? (stratum + u) / 16 : u)});
+        }
+      }
+    }
+    const std::vector<float> shares = film.variance_shares();
+    double even = 0, corner = 0;
+    for (int y = 0; y < 16; ++y) {
+      for (int x = 0; x < 16; ++x) {
+        corner += shares[y * 32 + x] / 256;
+        even += shares[(y + 16) * 32 + x + 16] / 256;
+      }
+    }
+    // One sample in each of 16 strata: 1 / 16^2 of the variance of independent samples.
+    EXPECT_NEAR(even * 256, 1, 0.25) << samples;
+    EXPECT_NEAR(corner, 1, 0.25) << samples;
+    EXPECT_GT(film.noise(), 0);
+  }
+}
+
 TEST(Film, NonfiniteBecomesZeroAndIsCountedOnce) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   constexpr float kInfinity = std::numeric_limits<float>::infinity();

@@ -134,10 +134,10 @@ TEST_F(Checkpoint, Garbage) {
 }
 
 TEST_F(Checkpoint, RightChecksumWrongContent) {
-  EXPECT_FALSE(error_of(with_field<std::uint32_t>(8, 1)).has_value());  // format version, unchanged
-  const std::optional<Error> version = error_of(with_field<std::uint32_t>(8, 2));
+  EXPECT_FALSE(error_of(with_field<std::uint32_t>(8, 2)).has_value());  // format version, unchanged
+  const std::optional<Error> version = error_of(with_field<std::uint32_t>(8, 1));
   ASSERT_TRUE(version.has_value());
-  EXPECT_NE(version->message().find("format 2; expected 1"), std::string::npos) << version->what();
+  EXPECT_NE(version->message().find("format 1; expected 2"), std::string::npos) << version->what();
   for (const std::size_t offset : {12, 16, 20, 24, 28}) {  // byte order, width, height, tile size, layers
     for (const std::uint32_t value : {0u, 65537u, 0x7fffffffu, 0xffffffffu}) {
       if (offset == 28 && value == 0) continue;
@@ -148,7 +148,7 @@ TEST_F(Checkpoint, RightChecksumWrongContent) {
     EXPECT_EQ(code_of(with_field(32, value)), ErrorCode::kBadFormat) << value;
   }
   // A pixel with a count of its own: the first of the counts, after header, fingerprint and sums.
-  const std::size_t counts = 88 + (sizeof(kScene) - 1) + 13 * 9 * 40;
+  const std::size_t counts = 88 + (sizeof(kScene) - 1) + 13 * 9 * 56;
   EXPECT_EQ(code_of(with_field<std::uint32_t>(counts, 7)), ErrorCode::kBadFormat);
 }
 
