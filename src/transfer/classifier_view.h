@@ -119,12 +119,16 @@ class VolumeValues {
     if (known_ & (1u << volume)) return values_[volume];
     known_ |= 1u << volume;
     return values_[volume] =
-               volume == kOpacityVolume
-                   ? opacity_of(classifier_.own_points, classify_mu_t(classifier_.own_points, values_[0]))
-                   : look_up(classifier_.volumes[volume], p_main_);
+               volume == kOpacityVolume ? opacity() : look_up(classifier_.volumes[volume], p_main_);
   }
 
  private:
+  /// Nowhere, as NaN says, where the data is.
+  float opacity() const noexcept {
+    if (!(values_[0] == values_[0])) return values_[0];
+    return opacity_of(classifier_.own_points, classify_mu_t(classifier_.own_points, values_[0]));
+  }
+
   const ClassifierView& classifier_;
   const Vec3f p_main_;
   float values_[kMostVolumes + 1];

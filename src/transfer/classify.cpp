@@ -17,27 +17,6 @@ Classified sample_column(const ColumnView& column, float value) noexcept {
   return out;
 }
 
-/// What a rule says where its volumes have these values.
-Classified sample_rule(const RuleView& rule, float value, float at) noexcept {
-  if (!(value == value)) return {};
-  const ColumnPair pair = columns_at(rule, at);
-  if (pair.first < 0) return {};
-  const Classified first = sample_column(rule.columns[pair.first], value);
-  if (pair.first == pair.second) return first;
-  const Classified second = sample_column(rule.columns[pair.second], value);
-  Classified out = pair.share < 0.5f ? first : second;
-  if (first.given != second.given) return out;
-  const auto between = [&](auto a, auto b) { return a + (b - a) * pair.share; };
-  out.optics = {between(first.optics.mu_t, second.optics.mu_t),
-                between(first.optics.albedo, second.optics.albedo),
-                between(first.optics.emission, second.optics.emission)};
-  // A column without matter has no colour.
-  if (!(first.optics.mu_t > 0)) out.optics.albedo = second.optics.albedo;
-  if (!(second.optics.mu_t > 0)) out.optics.albedo = first.optics.albedo;
-  for (int n = 0; n < kNumberCount; ++n) out.numbers[n] = between(first.numbers[n], second.numbers[n]);
-  return out;
-}
-
 /// Takes from `other` what `out` has not.
 void fill_in(const Classified& other, Classified& out) noexcept {
   const std::uint32_t taken = other.given & ~out.given;
@@ -47,6 +26,31 @@ void fill_in(const Classified& other, Classified& out) noexcept {
   for (int n = 0; n < kNumberCount; ++n)
     if (taken & gives(static_cast<Number>(n))) out.numbers[n] = other.numbers[n];
   out.given |= taken;
+}
+
+/// What a rule says where its volumes have these values.
+Classified sample_rule(const RuleView& rule, float value, float at) noexcept {
+  if (!(value == value)) return {};
+  const ColumnPair pair = columns_at(rule, at);
+  if (pair.first < 0) return {};
+  const Classified first = sample_column(rule.columns[pair.first], value);
+  if (pair.first == pair.second) return first;
+  const Classified second = sample_column(rule.columns[pair.second], value);
+  // What one column alone gives is its own; extinction is interpolated in any case, as by rule_mu_t.
+  Classified out = pair.share < 0.5f ? first : second;
+  fill_in(pair.share < 0.5f ? second : first, out);
+  const std::uint32_t both = first.given & second.given;
+  const auto between = [&](auto a, auto b) { return a + (b - a) * pair.share; };
+  out.optics.mu_t = between(first.optics.mu_t, second.optics.mu_t);
+  // A column without matter has no colour.
+  if (both & kGivesColor)
+    out.optics.albedo = !(first.optics.mu_t > 0)    ? second.optics.albedo
+                        : !(second.optics.mu_t > 0) ? first.optics.albedo
+                                                    : between(first.optics.albedo, second.optics.albedo);
+  if (both & kGivesEmission) out.optics.emission = between(first.optics.emission, second.optics.emission);
+  for (int n = 0; n < kNumberCount; ++n)
+    if (both & gives(static_cast<Number>(n))) out.numbers[n] = between(first.numbers[n], second.numbers[n]);
+  return out;
 }
 
 /// Multiplies what both have.

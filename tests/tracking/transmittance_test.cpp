@@ -156,6 +156,35 @@ TEST(Transmittances, SmallOnesAreUnbiasedUnderRoulette) {
   EXPECT_LT(ratio.standard_error(), 0.03 * std::exp(-9.0));
 }
 
+TEST(Transmittances, ShadowsMeetAShareOfTheExtinction) {
+  const TrackedMedium tracked(test::noise_volume<std::uint8_t>({12, 9, 9}, 0, 200, 13),
+                              mu_t_function({{0, 0}, {200, 2}}), 4);
+  const IndexRay ray{{-0.5f, 4.3f, 4.7f}, {1, 0.05f, 0.1f}};
+  const Interval<float> run = tracked.inside(ray);
+  const double tau = test::reference_optical_depth<std::uint8_t>(tracked.volume, {{0, 0}, {200, 2}}, ray,
+                                                                 run.t_near, run.t_far, 20000);
+  for (const float share : {1.0f, 0.3f, 0.02f}) {
+    Medium medium = tracked.medium;
+    medium.shadow_extinction = share;
+    test::Moments ratio;
+    TrackingCounters counters, plain;
+    for (int n = 0; n < kSamples; ++n) {
+      Rng rng(64, 0, 0, static_cast<std::uint32_t>(n)), flight(65, 0, 0, static_cast<std::uint32_t>(n));
+      Rng same = flight;
+      const TrackRay track{ray, run.t_near, run.t_far};
+      ratio.add(estimate_transmittance(medium, track, rng, counters));
+      // Free flights know nothing of it.
+      const Collision a = sample_free_flight(medium, track, flight, plain),
+                      b = sample_free_flight(tracked.medium, track, same, plain);
+      ASSERT_EQ(a.real, b.real);
+      ASSERT_EQ(a.t_mm, b.t_mm);
+    }
+    const double expected = std::exp(-tau * static_cast<double>(share));
+    EXPECT_LT(std::abs(ratio.z(expected, 1e-5 * expected)), 4) << ratio.mean() << " expected " << expected;
+    EXPECT_EQ(counters.majorant_violations, 0u);
+  }
+}
+
 TEST(Transmittances, DistanceToTheEyeDoesNotMatter) {
   // One opaque corner makes the majorant 10000 times the extinction on the ray; 500 mm away floats are 3e-5
   // apart.

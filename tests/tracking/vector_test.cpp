@@ -2,6 +2,7 @@
 
 #include "accel/hierarchy.h"
 #include "support/random_direction.h"
+#include "support/random_rules.h"
 #include "support/transfers.h"
 #include "support/volumes.h"
 #include "tracking/lanes.h"
@@ -116,13 +117,16 @@ std::vector<Task> make_tasks(const Medium& medium, int count, std::uint64_t seed
 class VectorTracking : public testing::TestWithParam<SimdTarget> {
  protected:
   void expect_twins(const HierarchyMedium& m, int count, std::uint64_t seed) {
-    const VectorTracker tracker = vector_tracker(GetParam(), m.medium);
+    expect_twins(m.medium, count, seed);
+  }
+  void expect_twins(const Medium& medium, int count, std::uint64_t seed) {
+    const VectorTracker tracker = vector_tracker(GetParam(), medium);
     ASSERT_TRUE(tracker);
-    const std::vector<Task> tasks = make_tasks(m.medium, count, seed);
-    const std::vector<Outcome> lanes = track_lanes(m.medium, tracker, tasks);
+    const std::vector<Task> tasks = make_tasks(medium, count, seed);
+    const std::vector<Outcome> lanes = track_lanes(medium, tracker, tasks);
     std::uint64_t steps = 0;
     for (std::size_t i = 0; i < tasks.size(); ++i) {
-      const Outcome expected = track_scalar(m.medium, tasks[i]);
+      const Outcome expected = track_scalar(medium, tasks[i]);
       SCOPED_TRACE("ray " + std::to_string(i));
       ASSERT_EQ(lanes[i].steps, expected.steps);
       ASSERT_EQ(lanes[i].violations, 0u);
@@ -195,6 +199,44 @@ TEST_P(VectorTracking, SignedValuesAndNaN) {
   for (int i = 0; i < 8000; i += 7) voxels[i] = std::numeric_limits<float>::quiet_NaN();
   const HierarchyMedium nan(std::move(holes), mu_t_function({{-1, 0.5}, {1, 2}}), 2);
   expect_twins(nan, 3000, 15);
+}
+
+TEST_P(VectorTracking, ShadowsOfLessExtinction) {
+  HierarchyMedium m = noisy_medium<std::int16_t>({33, 26, 21}, 2);
+  Medium medium = m.medium;
+  for (const float share : {0.3f, 0.01f}) {
+    medium.shadow_extinction = share;
+    expect_twins(medium, 4000, 16);
+  }
+}
+
+TEST_P(VectorTracking, RandomRules) {
+  const test::Size3 size{33, 26, 21};
+  test::Placement shifted = test::placements()[3];
+  shifted.spacing_mm = {0.9, 1.2, 1.1};
+  shifted.origin_mm = {12, 5, 15};
+  test::RuleVolumeSet volumes(test::noise_volume<std::int16_t>(size, 0, 1000, 17));
+  volumes.add("organs", test::noise_volume<std::uint8_t>(size, 0, 6, 18), Lookup::kNearest)
+      .add("pet", test::noise_volume<float>({20, 20, 20}, 0, 10, 19, shifted), Lookup::kLinear);
+  const auto materials = test::random_rule_materials();
+  Rng rng(20, 0, 0, 0);
+  test::RandomRules random(volumes, rng);
+  RuleBounds bounds(volumes.main(), 2, CellOrder::kCubes, volumes.all());
+  MajorantHierarchy hierarchy(volumes.main(), 2);
+  for (int n = 0; n < 12; ++n) {
+    TransferDescription transfer = random.transfer(static_cast<Merge>(n % 3), 1 + n % 4);
+    // Something that is visible everywhere but where a product hides it.
+    if (n % 3)
+      transfer.rules.push_back(
+          test::rule_of(RuleKind::kCoefficientCurve, "data", {test::opacity_point(0, 0.1)}));
+    const Classifier classifier(transfer, volumes.all(), materials);
+    const TransferFunction function(mu_t_function({{0, 0}}));
+    bounds.prepare(classifier);
+    hierarchy.update(bounds);
+    Medium medium{volumes.main(), function.view(), hierarchy.view(), classifier.view()};
+    medium.shadow_extinction = n % 2 ? 0.3f : 1.0f;
+    if (classifier.upper_mu_t() > 0) expect_twins(medium, 1500, 21);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, VectorTracking,
