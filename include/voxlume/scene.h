@@ -43,7 +43,9 @@ struct TransferPoint {
   std::optional<double> specular = {};       ///< [0,1]
   std::optional<double> anisotropy = {};     ///< (-1,1)
   std::optional<double> surface_share = {};  ///< [0,1]: multiplies the share that follows from the gradient
-  std::string material = {};                 ///< of material rules: a name of `materials` or of the library
+  /// [0,1]: multiplies the extinction of each channel, with Extinction::kRgb; absent everywhere: white
+  std::optional<Color> extinction_color = {};
+  std::string material = {};  ///< of material rules: a name of `materials` or of the library
   friend bool operator==(const TransferPoint&, const TransferPoint&) = default;
 };
 
@@ -112,21 +114,22 @@ struct TransferDescription {
 /// A material by name. What is absent is that of `like`, else the scene's `material`.
 struct NamedMaterialDescription {
   std::string name;
-  std::string like;                         ///< a material of the library (docs/materials.md), or none
-  std::optional<double> opacity;            ///< [0,1] per reference length; absent: the rules' own
-  std::optional<double> mu_t_per_mm;        ///< instead of an opacity
-  std::optional<Color> color;               ///< [0,1]
-  std::optional<Color> emission;            ///< >= 0
-  std::optional<double> roughness;          ///< [0,1]
-  std::optional<double> metallic;           ///< [0,1]: share of metal among surface particles
-  std::optional<double> specular;           ///< [0,1]
-  std::optional<double> anisotropy;         ///< (-1,1)
-  std::optional<double> surface_share;      ///< [0,1]: multiplies the share that follows from the gradient
-  std::optional<double> transmission;       ///< [0,1]: share of rough glass among the rest of the surface
-  std::optional<double> ior;                ///< [1,4]: of the glass
-  std::optional<double> diffuse_roughness;  ///< [0,1]: 0 is Lambert
-  std::optional<double> back_anisotropy;    ///< (-1,1): of a second lobe of the phase function
-  std::optional<double> back_share;         ///< [0,1]: of that lobe
+  std::string like;                            ///< a material of the library (docs/materials.md), or none
+  std::optional<double> opacity;               ///< [0,1] per reference length; absent: the rules' own
+  std::optional<double> mu_t_per_mm;           ///< instead of an opacity
+  std::optional<Color> color;                  ///< [0,1]
+  std::optional<Color> emission;               ///< >= 0
+  std::optional<double> roughness;             ///< [0,1]
+  std::optional<double> metallic;              ///< [0,1]: share of metal among surface particles
+  std::optional<double> specular;              ///< [0,1]
+  std::optional<double> anisotropy;            ///< (-1,1)
+  std::optional<double> surface_share;         ///< [0,1]: multiplies the share that follows from the gradient
+  std::optional<double> transmission;          ///< [0,1]: share of rough glass among the rest of the surface
+  std::optional<double> ior;                   ///< [1,4]: of the glass
+  std::optional<double> diffuse_roughness;     ///< [0,1]: 0 is Lambert
+  std::optional<double> back_anisotropy;       ///< (-1,1): of a second lobe of the phase function
+  std::optional<double> back_share;            ///< [0,1]: of that lobe
+  std::optional<Color> extinction_color = {};  ///< [0,1]: as a transfer point's
   friend bool operator==(const NamedMaterialDescription&, const NamedMaterialDescription&) = default;
 };
 
@@ -235,6 +238,8 @@ enum class PixelFilter { kGaussian, kBox };
 enum class Sampler { kSobol, kRandom };
 enum class TransmittanceEstimator { kRatio, kResidual, kMarching };
 enum class FreeFlightSampling { kDelta, kDecomposition };
+/// Single: one mu_t for all channels. Rgb: mu_t times the extinction colour (docs/rgb-extinction.md).
+enum class Extinction { kSingle, kRgb };
 enum class ToneCurve { kFilmic, kSrgb };
 
 /// The picture: its size, how long to work on it and how it is developed.
@@ -282,6 +287,7 @@ struct RenderDescription {
   int light_samples = 1;  ///< shadow rays at the first scattering of a path
   TransmittanceEstimator transmittance = TransmittanceEstimator::kRatio;
   FreeFlightSampling free_flight = FreeFlightSampling::kDelta;
+  Extinction extinction = Extinction::kSingle;
   /// Shadow rays that can add less than this many times the path's first one are cast by Russian roulette.
   double shadow_roulette = 0;
   std::string simd = "auto";     ///< auto scalar

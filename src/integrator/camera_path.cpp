@@ -82,6 +82,16 @@ CameraPath::Wait CameraPath::end() noexcept {
   return Wait::kNothing;
 }
 
+void CameraPath::weigh_flight(Vec3f weight) noexcept {
+  throughput_ *= weight;
+  first_light_.weight *= weight;
+}
+
+void CameraPath::weigh_shadow_ray(Vec3f transmittance) noexcept {
+  unshadowed_ *= transmittance;
+  first_light_.arriving *= transmittance;
+}
+
 CameraPath::Wait CameraPath::end_flight(const SceneView& scene, const Collision& collision) noexcept {
   if (depth_ > 0) {
     const Vec3f met = met_emitters(scene, collision);
@@ -89,7 +99,7 @@ CameraPath::Wait CameraPath::end_flight(const SceneView& scene, const Collision&
     if (scene.keeps_parts && depth_ == 1) add_first(met * first_light_.weight);
   }
   if (!collision.real) {
-    if (depth_ == 0) radiance_ = background(scene);
+    if (depth_ == 0) radiance_ = throughput_ * background(scene);
     return end();
   }
   if (scattered_out(scene) && !scene.matter_emits) return end();
@@ -221,7 +231,7 @@ bool CameraPath::cast(const SceneView& scene, const LightSample& light, const Sc
   unshadowed_ *= boost;
   if (scene.keeps_parts && depth_ == 0) {
     first_light_.now = kernel(scene).eval(light.wi);
-    first_light_.arriving = light.radiance * (weight / pdf * boost);
+    first_light_.arriving = throughput_ * light.radiance * (weight / pdf * boost);
   }
   ++counters.shadow_rays;
   ray_ = ray;
@@ -282,7 +292,7 @@ CameraPath::Wait CameraPath::turn(const SceneView& scene, TraceCounters& counter
   if (share < 1 && rng_.next() >= share) return end();
   if (scene.keeps_parts && depth_ == 0) {
     first_light_.now = kernel(scene).eval(turn_.wi);
-    first_light_.weight = 1 / (turn_.pdf * share);
+    first_light_.weight = throughput_ * (1 / (turn_.pdf * share));
   }
   throughput_ *= turn_.value / (turn_.pdf * share);
   origin_world_ = matter_.p_world;

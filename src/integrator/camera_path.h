@@ -23,6 +23,14 @@ class CameraPath {
 
   /// Begins a sample.
   Wait begin(const SceneView& scene, const PrimaryRay& primary, TraceCounters& counters) noexcept;
+  /// Where channels have extinctions of their own, before end_flight: what the flight multiplies the
+  /// throughput by.
+  void weigh_flight(Vec3f weight) noexcept;
+  /// The same before end_shadow_ray, which then takes a transmittance of 1.
+  void weigh_shadow_ray(Vec3f transmittance) noexcept;
+  /// What the path carries.
+  const Vec3f& throughput() const noexcept { return throughput_; }
+
   /// Goes on from kFlight.
   Wait end_flight(const SceneView& scene, const Collision& collision) noexcept;
   /// Goes on from kTransmittance, with an unbiased estimate of it.
@@ -101,7 +109,7 @@ class CameraPath {
     UnshadowedShading fx;
     Vec3f diffuse, specular;  ///< sums of h_k E_k over the techniques (xu2024 section 5.1)
     ScatterParts now;         ///< h_k of the direction under way
-    float weight;             ///< of light met there, where a path follows it
+    Vec3f weight;             ///< of light met there, where a path follows it
     Vec3f arriving;           ///< E_k of the shadow ray under way, without its transmittance
     bool dense;
   } first_light_{};

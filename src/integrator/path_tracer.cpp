@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "integrator/camera_path.h"
+#include "tracking/rgb_tracking.h"
 
 namespace voxlume {
 namespace {
@@ -209,6 +210,31 @@ class LaneTracer {
   int ready_count_ = 0;
 };
 
+/// Has the path go on from kFlight or kTransmittance, by scalar code.
+CameraPath::Wait track(const SceneView& scene, CameraPath::Wait wait, CameraPath& path,
+                       TrackingCounters& tracking, TraceCounters& counters) noexcept {
+  const Medium& medium = scene.medium;
+  if (wait == CameraPath::Wait::kFlight)
+    return path.end_flight(
+        scene, sample_free_flight(scene.trackers.free_flight, medium, path.ray(), path.rng(), tracking));
+  return path.end_shadow_ray(
+      scene, estimate_transmittance(scene.trackers.transmittance, medium, path.ray(), path.rng(), tracking),
+      counters);
+}
+
+/// The same where channels have extinctions of their own.
+CameraPath::Wait track_rgb(const SceneView& scene, CameraPath::Wait wait, CameraPath& path,
+                           TrackingCounters& tracking, TraceCounters& counters) noexcept {
+  const Medium& medium = scene.medium;
+  if (wait == CameraPath::Wait::kFlight) {
+    const RgbFlight flight = sample_rgb_flight(medium, path.ray(), path.throughput(), path.rng(), tracking);
+    path.weigh_flight(flight.weight);
+    return path.end_flight(scene, flight.collision);
+  }
+  path.weigh_shadow_ray(estimate_rgb_transmittance(medium, path.ray(), path.rng(), tracking));
+  return path.end_shadow_ray(scene, 1, counters);
+}
+
 /// One path by scalar code.
 PixelSample trace_ray(const SceneView& scene, const PrimaryRay& primary, TraceCounters& counters,
                       RadianceParts* parts) noexcept {
@@ -218,14 +244,9 @@ PixelSample trace_ray(const SceneView& scene, const PrimaryRay& primary, TraceCo
   Wait wait = path.begin(scene, primary, counters);
   for (;;) switch (wait) {
       case Wait::kFlight:
-        wait = path.end_flight(scene, sample_free_flight(scene.trackers.free_flight, scene.medium, path.ray(),
-                                                         path.rng(), tracking));
-        break;
       case Wait::kTransmittance:
-        wait = path.end_shadow_ray(scene,
-                                   estimate_transmittance(scene.trackers.transmittance, scene.medium,
-                                                          path.ray(), path.rng(), tracking),
-                                   counters);
+        wait = scene.extinction == Extinction::kRgb ? track_rgb(scene, wait, path, tracking, counters)
+                                                    : track(scene, wait, path, tracking, counters);
         break;
       case Wait::kScattering:
         wait = path.end_scattering(scene, scatter_at(scene, path.query()), counters);

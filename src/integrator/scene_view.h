@@ -48,11 +48,12 @@ enum class LightSampling { kMis, kLight, kDirection };
 /// Everything a path needs, as plain data. Compiled once by CompiledScene, which owns what this points to.
 struct SceneView {
   Medium medium;
-  SimdTarget simd = SimdTarget::kScalar;  ///< the instruction set that tracks rays; kScalar: one by one
-  TrackerChoice trackers;                 ///< of scalar code; vector code has the default ones only
-  Box3f domain_index;                     ///< the volume
-  Box3f clip_world;                       ///< LPS mm; what is kept
-  bool clip_blocks_light = false;         ///< what is cut away still attenuates light
+  SimdTarget simd = SimdTarget::kScalar;        ///< the instruction set that tracks rays; kScalar: one by one
+  TrackerChoice trackers;                       ///< of scalar code; vector code has the default ones only
+  Extinction extinction = Extinction::kSingle;  ///< rgb: scalar code, with the default trackers
+  Box3f domain_index;                           ///< the volume
+  Box3f clip_world;                             ///< LPS mm; what is kept
+  bool clip_blocks_light = false;               ///< what is cut away still attenuates light
   ScatteringView scattering;
   LabelsView labels;
   IllustrationView illustration;

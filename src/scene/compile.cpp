@@ -38,6 +38,17 @@ SimdTarget simd_target(const std::string& name) {
               "this machine has no \"" + name + "\"; available: " + available);
 }
 
+/// Throws where the trackers that a scene asks for do not go together.
+void check_trackers(const SceneDescription& scene) {
+  if (trackers(scene.render).is_default()) return;
+  if (scene.material.self_occlusion < 1)
+    throw Error(ErrorCode::kUnsupported, "/material/self_occlusion",
+                "below 1 needs transmittance ratio and free_flight delta");
+  if (scene.render.extinction == Extinction::kRgb)
+    throw Error(ErrorCode::kUnsupported, "/render/extinction",
+                "rgb needs transmittance ratio and free_flight delta");
+}
+
 /// A label volume and its colours, read and checked.
 struct LabelSet {
   Volume volume;
@@ -132,6 +143,7 @@ AcceleratorChoice accelerator_choice(const SceneDescription& scene, const GridVi
 /// What of a scene was compiled anew and may not be, for want of a change.
 struct CompiledScene::Parts {
   std::optional<TransferFunction> transfer;
+  std::optional<ExtinctionColorCurve> extinction_color;
   std::optional<Accelerator> accelerator;
   std::optional<LabelSet> labels;
   std::optional<RuleVolumes> rule_volumes;
@@ -178,9 +190,11 @@ CompiledScene::Parts CompiledScene::compile_parts(const SceneDescription& descri
                                                   bool everything) const {
   const RenderDescription& render = description.render;
   simd_target(render.simd);
+  check_trackers(description);
   Parts parts;
   if (everything || !(description.transfer == description_.transfer)) {
     parts.transfer.emplace(description.transfer);
+    parts.extinction_color.emplace(description.transfer.points);
     check_depth(parts.transfer->max_mu_t(), volume_);
   }
   const GridView grid = make_grid_view(volume_);
@@ -206,10 +220,6 @@ void CompiledScene::compile_rules(const SceneDescription& description, bool ever
   const Materials& materials = parts.materials ? *parts.materials : *materials_;
   parts.classifier.emplace(description.transfer, volumes.volumes(), materials.named());
   if (parts.classifier->has_rules()) check_depth(parts.classifier->upper_mu_t(), volume_);
-  const MaterialDescription& material = description.material;
-  if (material.self_occlusion < 1 && !trackers(description.render).is_default())
-    throw Error(ErrorCode::kUnsupported, "/material/self_occlusion",
-                "below 1 needs transmittance ratio and free_flight delta");
 }
 
 void CompiledScene::compile_lights(const SceneDescription& local, bool everything, const CameraView& camera,
@@ -241,6 +251,7 @@ void CompiledScene::compile_lights(const SceneDescription& local, bool everythin
 void CompiledScene::put_medium(Parts& parts, const SceneDescription& local) {
   const bool new_majorants = parts.transfer || parts.accelerator || parts.classifier;
   if (parts.transfer) transfer_ = std::move(parts.transfer);
+  if (parts.extinction_color) extinction_color_ = std::move(parts.extinction_color);
   if (parts.accelerator) accelerator_.emplace(std::move(*parts.accelerator));
   if (parts.rule_volumes) {
     rule_volumes_ = std::move(parts.rule_volumes);
@@ -256,13 +267,19 @@ void CompiledScene::put_medium(Parts& parts, const SceneDescription& local) {
       accelerator_->update(*transfer_);
     majorant_build_ms_ =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-    view_.medium = {make_grid_view(moved_to_origin(volume_, origin_mm_)), transfer_->view(),
-                    accelerator_->view(), classifier_->view(), 1};
+    view_.medium = {make_grid_view(moved_to_origin(volume_, origin_mm_)),
+                    transfer_->view(),
+                    accelerator_->view(),
+                    classifier_->view(),
+                    1,
+                    extinction_color_->view()};
   }
   view_.medium.shadow_extinction = static_cast<float>(local.material.self_occlusion);
   view_.simd = simd_target(local.render.simd);
   view_.trackers = trackers(local.render);
-  if (!view_.trackers.is_default() || !vector_tracker(view_.simd, view_.medium))
+  view_.extinction = local.render.extinction;
+  if (view_.extinction == Extinction::kRgb || !view_.trackers.is_default() ||
+      !vector_tracker(view_.simd, view_.medium))
     view_.simd = SimdTarget::kScalar;
   view_.domain_index = view_.medium.grid.index_box();
   view_.clip_world = {Vec3f(-1e30f), Vec3f(1e30f)};

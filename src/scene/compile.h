@@ -11,6 +11,7 @@
 #include "scene/labels.h"
 #include "scene/materials.h"
 #include "scene/rule_volumes.h"
+#include "transfer/extinction_color.h"
 #include "transfer/transfer_function.h"
 #include "voxlume/scene.h"
 #include "voxlume/volume.h"
@@ -73,6 +74,7 @@ class CompiledScene {
   std::optional<LabelTable> label_table_;
   std::vector<std::string> warnings_;
   std::optional<TransferFunction> transfer_;
+  std::optional<ExtinctionColorCurve> extinction_color_;
   std::optional<RuleVolumes> rule_volumes_;
   std::optional<Materials> materials_;
   std::optional<Classifier> classifier_;

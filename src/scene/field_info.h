@@ -138,6 +138,10 @@ struct EnumWords<FreeFlightSampling> {
   static constexpr std::array<std::string_view, 2> kWords{"delta", "decomposition"};
 };
 template <>
+struct EnumWords<Extinction> {
+  static constexpr std::array<std::string_view, 2> kWords{"single", "rgb"};
+};
+template <>
 struct EnumWords<ToneCurve> {
   static constexpr std::array<std::string_view, 2> kWords{"filmic", "srgb"};
 };

@@ -125,6 +125,12 @@ void visit_fields(V&& visit, Struct<RenderDescription>) {
          .doc = "How collisions are found: delta tracking, or decomposition tracking, which takes the "
                 "macrocell accelerator and scalar code. Both have the same distribution."},
         &T::free_flight);
+  visit(
+      {.key = "extinction",
+       .doc = "single: one extinction for all channels. rgb: every channel has its own, the extinction times "
+              "the extinction_color of points and materials; takes scalar code, transmittance ratio and "
+              "free_flight delta (docs/rgb-extinction.md)."},
+      &T::extinction);
   visit({.key = "shadow_roulette",
          .doc = "A shadow ray that can add less than this many times what the path's first one could is cast "
                 "by Russian roulette; 0 casts all.",

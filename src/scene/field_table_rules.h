@@ -63,6 +63,11 @@ void visit_fields(V&& visit, Struct<TransferPoint>) {
          .range = between(0, 1),
          .absent = "the curve passes by"},
         &T::surface_share);
+  visit({.key = "extinction_color",
+         .doc = "Multiplies the extinction of each channel, where render.extinction is rgb.",
+         .range = between(0, 1),
+         .absent = "the curve passes by; white where no point gives one"},
+        &T::extinction_color);
   visit(
       {.key = "material",
        .doc = "Of rules mpctf and mdptf: the material, one of the scene's or of the library. What the point "
@@ -233,6 +238,11 @@ void visit_fields(V&& visit, Struct<NamedMaterialDescription>) {
          .absent = kAsLike},
         &T::back_anisotropy);
   share("back_share", "Share of that lobe.", &T::back_share);
+  visit({.key = "extinction_color",
+         .doc = "Multiplies the extinction of each channel, where render.extinction is rgb.",
+         .range = between(0, 1),
+         .absent = "that of like, else the rules' or white"},
+        &T::extinction_color);
 }
 
 inline StructInfo struct_info(Struct<IllustrationDescription>) {

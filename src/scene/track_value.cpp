@@ -34,7 +34,8 @@ constexpr std::optional<double> TransferPoint::*kNumbers[] = {
     &TransferPoint::opacity,      &TransferPoint::mu_t_per_mm, &TransferPoint::roughness,
     &TransferPoint::metallic,     &TransferPoint::specular,    &TransferPoint::anisotropy,
     &TransferPoint::surface_share};
-constexpr std::optional<Color> TransferPoint::*kColors[] = {&TransferPoint::color, &TransferPoint::emission};
+constexpr std::optional<Color> TransferPoint::*kColors[] = {&TransferPoint::color, &TransferPoint::emission,
+                                                            &TransferPoint::extinction_color};
 
 /// Whether two functions have points that correspond.
 bool same_form(const Points& a, const Points& b) {

@@ -2,6 +2,7 @@
 #include "accel/accelerator_view.h"
 #include "grid/sample.h"
 #include "transfer/classifier_view.h"
+#include "transfer/extinction_color.h"
 
 namespace voxlume {
 
@@ -13,6 +14,8 @@ struct Medium {
   ClassifierView rules{};  ///< where there are some, they classify in place of `transfer`
   /// Multiplies the extinction that shadow rays meet, in (0, 1] (xu2025 section 3.4).
   float shadow_extinction = 1;
+  /// Of `transfer`, for trackers that tell channels apart (tracking/rgb_tracking.h).
+  ExtinctionColorView extinction_color{};
 };
 
 /// A ray in index space that keeps t in mm.

@@ -89,7 +89,9 @@ bool Classifier::emits() const {
 }
 
 bool Classifier::gives_numbers() const {
-  constexpr std::uint32_t kOptics = kGivesExtinction | kGivesColor | kGivesEmission;
+  constexpr std::uint32_t kOptics = kGivesExtinction | kGivesColor | kGivesEmission |
+                                    gives(Number::kExtinctionRed) | gives(Number::kExtinctionGreen) |
+                                    gives(Number::kExtinctionBlue);
   return std::any_of(rule_views_.begin(), rule_views_.end(),
                      [](const RuleView& rule) { return (rule.given & ~kOptics) != 0; });
 }

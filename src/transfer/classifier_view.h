@@ -26,9 +26,20 @@ enum CoefficientBits : std::uint32_t {
   kGivesFirstNumber = 16  ///< times 2^n for number n
 };
 
-/// Coefficients of the surface lobes and the phase function, in the order of Classified::numbers.
-enum class Number { kRoughness, kMetallic, kSpecular, kAnisotropy, kSurfaceShare };
-inline constexpr int kNumberCount = 5;
+/// Coefficients of the surface lobes and the phase function, then the channels of the extinction colour, in
+/// the order of Classified::numbers.
+enum class Number {
+  kRoughness,
+  kMetallic,
+  kSpecular,
+  kAnisotropy,
+  kSurfaceShare,
+  kExtinctionRed,
+  kExtinctionGreen,
+  kExtinctionBlue
+};
+inline constexpr int kNumberCount = 8;
+inline constexpr int kLobeNumberCount = 5;  ///< those before the extinction colour
 constexpr std::uint32_t gives(Number number) {
   return kGivesFirstNumber << static_cast<std::uint32_t>(number);
 }
@@ -45,6 +56,11 @@ struct Classified {
 
   float number_or(Number which, float otherwise) const noexcept {
     return given & gives(which) ? numbers[static_cast<int>(which)] : otherwise;
+  }
+  /// What multiplies mu_t channel by channel; white where nothing gives it.
+  Vec3f extinction_color() const noexcept {
+    return {number_or(Number::kExtinctionRed, 1), number_or(Number::kExtinctionGreen, 1),
+            number_or(Number::kExtinctionBlue, 1)};
   }
 };
 

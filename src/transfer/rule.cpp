@@ -13,13 +13,19 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 /// Half the distance between labels.
 constexpr double kHalf = 0.5;
 
-constexpr std::optional<double> TransferPoint::*kPointNumbers[kNumberCount] = {
+constexpr std::optional<double> TransferPoint::*kPointNumbers[kLobeNumberCount] = {
     &TransferPoint::roughness, &TransferPoint::metallic, &TransferPoint::specular, &TransferPoint::anisotropy,
     &TransferPoint::surface_share};
-constexpr std::optional<double> NamedMaterialDescription::*kMaterialNumbers[kNumberCount] = {
+constexpr std::optional<double> NamedMaterialDescription::*kMaterialNumbers[kLobeNumberCount] = {
     &NamedMaterialDescription::roughness, &NamedMaterialDescription::metallic,
     &NamedMaterialDescription::specular, &NamedMaterialDescription::anisotropy,
     &NamedMaterialDescription::surface_share};
+
+std::optional<double> number_of(const TransferPoint& point, int n) {
+  if (n < kLobeNumberCount) return point.*kPointNumbers[n];
+  if (!point.extinction_color) return std::nullopt;
+  return point.extinction_color->linear[static_cast<std::size_t>(n - kLobeNumberCount)];
+}
 
 bool is_curve(RuleKind kind) { return kind == RuleKind::kCoefficientCurve; }
 bool is_steps(RuleKind kind) {
@@ -40,7 +46,8 @@ void take_from_material(const NamedMaterialDescription& material, TransferPoint&
   }
   if (!point.color) point.color = material.color;
   if (!point.emission) point.emission = material.emission;
-  for (int n = 0; n < kNumberCount; ++n)
+  if (!point.extinction_color) point.extinction_color = material.extinction_color;
+  for (int n = 0; n < kLobeNumberCount; ++n)
     if (!(point.*kPointNumbers[n])) point.*kPointNumbers[n] = material.*kMaterialNumbers[n];
 }
 
@@ -53,7 +60,7 @@ std::uint32_t bits_of(const TransferPoint& point, std::int32_t material) {
   if (point.emission) bits |= kGivesEmission;
   if (material >= 0) bits |= kGivesMaterial;
   for (int n = 0; n < kNumberCount; ++n)
-    if (point.*kPointNumbers[n]) bits |= gives(static_cast<Number>(n));
+    if (number_of(point, n)) bits |= gives(static_cast<Number>(n));
   return bits;
 }
 
@@ -100,7 +107,7 @@ NumberPiece constant_piece(double start, const TransferPoint& point, std::uint32
                            std::int32_t material) {
   NumberPiece piece{static_cast<float>(start), static_cast<float>(start), given, material, {}, {}};
   for (int n = 0; n < kNumberCount; ++n)
-    piece.numbers[n] = static_cast<float>((point.*kPointNumbers[n]).value_or(0));
+    piece.numbers[n] = static_cast<float>(number_of(point, n).value_or(0));
   return piece;
 }
 
@@ -125,7 +132,7 @@ std::vector<NumberPiece> pieces_of_curve(const std::vector<TransferPoint>& point
   for (const TransferPoint& point : points) given |= bits_of(point, -1);
   for (int n = 0; n < kNumberCount; ++n) {
     curves[n] = collect<double>(
-        points, [n](const TransferPoint& p) { return p.*kPointNumbers[n]; }, 0.0);
+        points, [n](const TransferPoint& p) { return number_of(p, n); }, 0.0);
     for (const auto& knot : curves[n].knots) cuts.push_back(knot.first);
   }
   std::sort(cuts.begin(), cuts.end());

@@ -4,66 +4,13 @@
 
 #include <algorithm>
 
+#include "blob_scene.h"
 #include "image_io/image_io.h"
+#include "same_mean.h"
 #include "support/temporary_folder.h"
-#include "test_scene.h"
 
 namespace voxlume::test {
 namespace {
-
-Volume two_blobs() {
-  return make_volume({32, 32, 32}, 1.5, [](Vec3d p) {
-    const double a = std::exp(-dot(p - Vec3d(-7, 2, 3), p - Vec3d(-7, 2, 3)) / 60);
-    const double b = std::exp(-dot(p - Vec3d(8, -4, -5), p - Vec3d(8, -4, -5)) / 40);
-    return 100 * std::max(a, 0.9 * b);
-  });
-}
-
-SceneDescription blob_scene() {
-  SceneDescription scene = dark_scene(32, 32);
-  scene.transfer.points = {point(15, 0, {{0.9f, 0.5f, 0.3f}}), point(40, 0.15, {{0.9f, 0.6f, 0.4f}}),
-                           point(70, 1.5, {{0.9f, 0.9f, 0.8f}})};
-  scene.camera.azimuth_deg = 20;
-  scene.camera.elevation_deg = 15;
-  scene.camera.zoom = 1.7;
-  return scene;
-}
-
-LightDescription area_light() {
-  LightDescription light;
-  light.kind = LightKind::kRect;
-  light.position_mm = Double3{-40, -50, 40};
-  light.target_mm = Double3{0, 0, 0};
-  light.up = Double3{0, 0, 1};
-  light.size_mm = {90, 70};
-  light.intensity = 4;
-  return light;
-}
-
-/// As many equal contributions would have this mean and variance: below some dozens a mean is not normal.
-double effective_count(const Moments& m) { return m.sum2 > 0 ? m.sum * m.sum / m.sum2 : 0; }
-
-/// Compares the means of the 8x8-pixel blocks that hold enough light for their z values to be normal, and of
-/// the picture.
-void expect_same_mean(const Estimate& a, const Estimate& b) {
-  double sum2 = 0, worst = 0;
-  int blocks = 0;
-  for (int by = 0; by < a.height / 8; ++by) {
-    for (int bx = 0; bx < a.width / 8; ++bx) {
-      const Moments ma = a.block(bx, by, 8), mb = b.block(bx, by, 8);
-      if (effective_count(ma) < 40 || effective_count(mb) < 40) continue;
-      const double z = welch_z(ma, mb);
-      worst = std::max(worst, std::abs(z));
-      sum2 += z * z;
-      ++blocks;
-    }
-  }
-  ASSERT_GE(blocks, 4);
-  EXPECT_LT(worst, 4);
-  EXPECT_LT(sum2, blocks + 4.5 * std::sqrt(2.0 * blocks)) << blocks << " blocks";
-  const Moments total_a = a.total(), total_b = b.total();
-  EXPECT_LT(std::abs(welch_z(total_a, total_b)), 4) << total_a.mean() << " against " << total_b.mean();
-}
 
 TEST(Agreement, ExposureRenderAndCoexistence) {
   SceneDescription scene = blob_scene();

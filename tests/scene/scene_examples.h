@@ -14,7 +14,7 @@ inline SceneDescription full_scene() {
   s.transfer.points = {{-100.5, 0.0, {}, Color{{0.1f, 0.2f, 0.3f}}, {}},
                        {150, 0.7, {}, {}, Color{{0, 12.5f, 0}}},
                        {150, 1.0, {}, Color{{1.0f / 3.0f, 1, 0}}, {}}};
-  TransferPoint varied{7, 0.5, {}, {}, {}, 0.25, 0.75, 0.125, -0.5, 0.375, "shell"};
+  TransferPoint varied{7, 0.5, {}, {}, {}, 0.25, 0.75, 0.125, -0.5, 0.375, Color{{0.5f, 0.25f, 1}}, "shell"};
   s.transfer.rules = {
       {RuleKind::kMaterialSteps, "pet", {varied}, {}, ColumnForm::kSteps, {}},
       {RuleKind::kCoefficientPoints, "atlas", {}, "gradient", ColumnForm::kPoints, {{-2.5, {varied}}}}};
@@ -37,8 +37,9 @@ inline SceneDescription full_scene() {
                   1.75,
                   0.7,
                   -0.8,
-                  0.9},
-                 {"thin", "", {}, 0.25, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}}};
+                  0.9,
+                  Color{{1, 0.5f, 0}}},
+                 {"thin", "", {}, 0.25, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}}};
   s.illustration = IllustrationDescription{
       {{0, 0.5, {}, Color{{0, 0, 1}}, {}}}, {0, 0, 2}, Attachment::kWorld, 0.25, 0.5, Color{{1, 0, 0}}};
   s.labels = LabelsDescription{"labels.nii.gz", "labels.txt", 0.75};
@@ -76,6 +77,7 @@ inline SceneDescription full_scene() {
   s.render.light_samples = 2;
   s.render.transmittance = TransmittanceEstimator::kMarching;
   s.render.free_flight = FreeFlightSampling::kDecomposition;
+  s.render.extinction = Extinction::kRgb;
   s.render.shadow_roulette = 0.25;
   s.render.simd = "scalar";
   s.render.denoise = "svgf";
