@@ -65,6 +65,8 @@ template <class T>
 void visit_paths(T&, const std::function<void(std::string&)>&) {}
 template <OptionalField T>
 void visit_paths(T& value, const std::function<void(std::string&)>& change);
+template <ListField T>
+void visit_paths(T& value, const std::function<void(std::string&)>& change);
 template <StructField T>
 void visit_paths(T& value, const std::function<void(std::string&)>& change) {
   visit_fields(
@@ -80,6 +82,10 @@ void visit_paths(T& value, const std::function<void(std::string&)>& change) {
 template <OptionalField T>
 void visit_paths(T& value, const std::function<void(std::string&)>& change) {
   if (value) visit_paths(*value, change);
+}
+template <ListField T>
+void visit_paths(T& value, const std::function<void(std::string&)>& change) {
+  for (auto& element : value) visit_paths(element, change);
 }
 
 /// `path` as a scene in `folder` names it. Both are absolute.
@@ -112,7 +118,7 @@ std::string write_scene(const SceneDescription& scene, bool all_fields) {
       // A struct that is not at its default, but has nothing to write, is noise.
       for (auto it = root.begin(); it != root.end();) {
         const bool optional = it.key() == "labels" || it.key() == "environment" || it.key() == "clip" ||
-                              it.key() == "animation";
+                              it.key() == "illustration" || it.key() == "animation";
         it = !optional && it->is_object() && it->empty() ? root.erase(it) : std::next(it);
       }
     }
