@@ -177,6 +177,9 @@ CompiledScene::Parts CompiledScene::compile_parts(const SceneDescription& descri
                                                   bool everything) const {
   const RenderDescription& render = description.render;
   simd_target(render.simd);
+  if (description.material.self_occlusion < 1 && !trackers(render).is_default())
+    throw Error(ErrorCode::kUnsupported, "/material/self_occlusion",
+                "below 1 needs transmittance ratio and free_flight delta");
   Parts parts;
   if (everything || !(description.transfer == description_.transfer)) {
     parts.transfer.emplace(description.transfer);
@@ -205,10 +208,6 @@ void CompiledScene::compile_rules(const SceneDescription& description, bool ever
   const Materials& materials = parts.materials ? *parts.materials : *materials_;
   parts.classifier.emplace(description.transfer, volumes.volumes(), materials.named());
   if (parts.classifier->has_rules()) check_depth(parts.classifier->upper_mu_t(), volume_);
-  const MaterialDescription& material = description.material;
-  if (material.self_occlusion < 1 && !trackers(description.render).is_default())
-    throw Error(ErrorCode::kUnsupported, "/material/self_occlusion",
-                "below 1 needs transmittance ratio and free_flight delta");
 }
 
 void CompiledScene::compile_lights(const SceneDescription& local, bool everything, const CameraView& camera,
