@@ -65,6 +65,8 @@ template <class T>
 void visit_paths(T&, const std::function<void(std::string&)>&) {}
 template <OptionalField T>
 void visit_paths(T& value, const std::function<void(std::string&)>& change);
+template <ListField T>
+void visit_paths(T& value, const std::function<void(std::string&)>& change);
 template <StructField T>
 void visit_paths(T& value, const std::function<void(std::string&)>& change) {
   visit_fields(
@@ -80,6 +82,10 @@ void visit_paths(T& value, const std::function<void(std::string&)>& change) {
 template <OptionalField T>
 void visit_paths(T& value, const std::function<void(std::string&)>& change) {
   if (value) visit_paths(*value, change);
+}
+template <ListField T>
+void visit_paths(T& value, const std::function<void(std::string&)>& change) {
+  for (auto& element : value) visit_paths(element, change);
 }
 
 /// `path` as a scene in `folder` names it. Both are absolute.
