@@ -34,7 +34,8 @@ class CliRules : public CliTest {
                   {"name": "steep", "kind": "gradient"}],
       "materials": [{"name": "shell", "like": "gold", "opacity": 1, "color": {"linear": [1, 0, 0]}}],
       "transfer": {
-        "points": [{"value": 0, "opacity": 0}, {"value": 900, "opacity": 0.9, "color": {"linear": [0, 0, 1]}}],
+        "points": [{"value": 0, "opacity": 0},
+                   {"value": 900, "opacity": 0.9, "color": {"linear": [0, 0, 1]}}],
         "rules": [{"kind": "mdptf", "volume": "organs", "points": [{"value": 2, "material": "shell"}]},
                   {"kind": "cctf", "volume": "data", "along": "steep", "column_form": "curve",
                    "columns": [{"at": 0, "points": [{"value": 0, "roughness": 0.3}]}]}]},
