@@ -1,5 +1,8 @@
 #include "scene/materials.h"
 
+#include <map>
+#include <mutex>
+
 #include "integrator/scene_view.h"
 #include "scene/material_library.h"
 
@@ -7,6 +10,20 @@ namespace voxlume {
 namespace {
 
 constexpr double kUsualIor = 1.5;
+
+/// The table of an index of refraction: that of the usual glass is made once, others are shared while a scene
+/// has them.
+std::shared_ptr<const GlassAlbedo> glass_table(float ior) {
+  static const auto usual = std::make_shared<const GlassAlbedo>(static_cast<float>(kUsualIor));
+  if (ior == usual->ior()) return usual;
+  static std::mutex mutex;
+  static std::map<float, std::weak_ptr<const GlassAlbedo>> others;
+  const std::lock_guard lock(mutex);
+  std::erase_if(others, [](const auto& one) { return one.second.expired(); });
+  std::shared_ptr<const GlassAlbedo> table = others[ior].lock();
+  if (!table) others[ior] = table = std::make_shared<const GlassAlbedo>(ior);
+  return table;
+}
 
 }  // namespace
 
@@ -33,15 +50,12 @@ Materials::Materials(const MaterialDescription& base, const std::vector<NamedMat
     view.g = number(named.anisotropy, base.anisotropy);
     view.g_back = number(named.back_anisotropy, 0);
     view.back_share = number(named.back_share, 0);
-    if (view.transmission > 0) view.glass = glass(view.ior);
+    if (view.transmission > 0) {
+      glass_.push_back(glass_table(view.ior));
+      view.glass = glass_.back().get();
+    }
     views_.push_back(view);
   }
-}
-
-const GlassAlbedo* Materials::glass(float ior) {
-  std::unique_ptr<GlassAlbedo>& table = glass_[ior];
-  if (!table) table = std::make_unique<GlassAlbedo>(ior);
-  return table.get();
 }
 
 }  // namespace voxlume

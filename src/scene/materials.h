@@ -1,5 +1,4 @@
 #pragma once
-#include <map>
 #include <memory>
 #include <span>
 #include <vector>
@@ -22,11 +21,9 @@ class Materials {
   const Material* views() const { return views_.data(); }
 
  private:
-  const GlassAlbedo* glass(float ior);
-
   std::vector<NamedMaterialDescription> named_;
   std::vector<Material> views_;
-  std::map<float, std::unique_ptr<GlassAlbedo>> glass_;  ///< by index of refraction
+  std::vector<std::shared_ptr<const GlassAlbedo>> glass_;  ///< what views_ point to
 };
 
 }  // namespace voxlume

@@ -15,8 +15,8 @@
 namespace voxlume {
 namespace {
 
-/// Beyond this, floats are no longer every whole number.
-constexpr float kMostLabel = 1 << 24;
+/// Beyond this, floats have no halves, which separate labels.
+constexpr float kMostLabel = (1 << 23) - 1;
 
 [[noreturn]] void refuse(const std::string& where, const std::string& message) {
   throw Error(ErrorCode::kBadParameter, where, message);

@@ -1,7 +1,6 @@
 #include "transfer/classifier.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "voxlume/error.h"
 
@@ -78,9 +77,8 @@ float Classifier::upper_mu_t(const VolumeRange (&volumes)[kMostVolumes]) const {
 }
 
 float Classifier::upper_mu_t() const {
-  constexpr float kMost = std::numeric_limits<float>::max();
   VolumeRange all[kMostVolumes];
-  for (VolumeRange& range : all) range.range = {-kMost, kMost};
+  for (std::size_t v = 0; v < volumes_.size(); ++v) all[v].range = volumes_[v].values;
   return upper_mu_t(all);
 }
 

@@ -1,73 +1,10 @@
 #include "transfer/classifier.h"
 
-#include <gtest/gtest.h>
-
+#include "rule_row.h"
 #include "support/random_rules.h"
 
-namespace voxlume {
+namespace voxlume::test {
 namespace {
-
-using test::color_point;
-using test::material_point;
-using test::opacity_point;
-using test::row_volume;
-using test::rule_of;
-using test::RuleVolumeSet;
-
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-constexpr double kLength_mm = 2, kScale = 3;
-
-/// mu_t of an opacity by the convention of the scene file.
-double extinction(double opacity, double length_mm = kLength_mm, double scale = kScale) {
-  return -std::log1p(-std::min(opacity, 0.9999)) / length_mm * scale;
-}
-
-float below(double value) { return std::nextafter(static_cast<float>(value), -1e30f); }
-float above(double value) { return std::nextafter(static_cast<float>(value), 1e30f); }
-
-Color linear(float r, float g, float b) { return {{r, g, b}}; }
-
-/// Rules over rows of voxels: the place of a point is the number of its voxel.
-class Row {
- public:
-  explicit Row(const std::vector<float>& data) : volumes_(row_volume(data)) {
-    transfer.reference_length_mm = kLength_mm;
-    transfer.density_scale = kScale;
-  }
-  Row& with(const std::string& name, const std::vector<float>& values, Lookup lookup = Lookup::kLinear) {
-    volumes_.add(name, row_volume(values), lookup);
-    return *this;
-  }
-  Row& rule(RuleDescription one) {
-    transfer.rules.push_back(std::move(one));
-    return *this;
-  }
-
-  Classified at(int voxel) const {
-    const Classifier classifier(transfer, volumes_.all(), materials);
-    const Vec3f p(static_cast<float>(voxel), 0, 0);
-    const float data = sample_trilinear(volumes_.main(), p);
-    const Classified out = classify(classifier.view(), p, data);
-    EXPECT_EQ(classify_mu_t(classifier.view(), p, data), out.optics.mu_t) << "voxel " << voxel;
-    return out;
-  }
-  /// Expects these opacities voxel by voxel, to `tolerance` of the extinction.
-  void expect_opacities(const std::vector<double>& opacities, double tolerance = 1e-6) const {
-    for (std::size_t i = 0; i < opacities.size(); ++i) {
-      const double expected = extinction(opacities[i]);
-      EXPECT_NEAR(at(static_cast<int>(i)).optics.mu_t, expected, tolerance * expected) << "voxel " << i;
-    }
-  }
-
-  TransferDescription transfer;
-  std::vector<NamedMaterialDescription> materials;
-
- private:
-  RuleVolumeSet volumes_;
-};
-
-const std::vector<TransferPoint> kCurve{opacity_point(0, 0), opacity_point(100, 0.5), opacity_point(100, 0.2),
-                                        opacity_point(200, 0.8)};
 
 TEST(RuleKinds, CoefficientCurve) {
   Row row({-5, 0, 50, 75, below(100), 100, above(100), 150, 200, 300, 300, kNaN});
@@ -86,14 +23,6 @@ TEST(RuleKinds, CoefficientPoints) {
   row.with("organs", {0, 2, 3, 4, 5, 9, kNaN}, Lookup::kNearest);
   row.rule(rule_of(RuleKind::kCoefficientPoints, "organs", {opacity_point(3, 0.3), opacity_point(4, 0.6)}));
   row.expect_opacities({0, 0, 0.3, 0.6, 0, 0, 0});
-}
-
-NamedMaterialDescription material(const std::string& name, double opacity, double roughness) {
-  NamedMaterialDescription out;
-  out.name = name;
-  out.opacity = opacity;
-  out.roughness = roughness;
-  return out;
 }
 
 TEST(RuleKinds, MaterialSteps) {
@@ -232,134 +161,6 @@ TEST(Columns, ThatGiveDifferentThings) {
   }
 }
 
-TEST(MergeProduct, OpacitiesAreMultiplied) {
-  Row row({0, 25, 50, 100, 100});
-  row.with("gradient", {100, 100, 50, 100, 0});
-  row.transfer.merge = Merge::kProduct;
-  const std::vector<TransferPoint> ramp{opacity_point(0, 0), opacity_point(100, 0.8)};
-  row.rule(rule_of(RuleKind::kCoefficientCurve, "data", ramp));
-  row.rule(rule_of(RuleKind::kCoefficientCurve, "gradient", ramp));
-  // 0.9999 counts as 1, which is 1e-4 of a factor.
-  row.expect_opacities({0, 0.2 * 0.8, 0.4 * 0.4, 0.64, 0}, 6e-4);
-}
-
-TEST(MergeProduct, OfThreeRules) {
-  Row row({1});
-  row.with("a", {1}).with("b", {1});
-  row.transfer.merge = Merge::kProduct;
-  for (const char* volume : {"data", "a", "b"}) {
-    TransferPoint point = opacity_point(0, 0.5);
-    point.color = linear(0.5f, 1, 0.25f);
-    point.roughness = 0.5;
-    point.emission = linear(2, 0, 1);
-    row.rule(rule_of(RuleKind::kCoefficientCurve, volume, {point}));
-  }
-  row.expect_opacities({0.125}, 4e-4);
-  const Classified c = row.at(0);
-  EXPECT_EQ(c.optics.albedo, Vec3f(0.125f, 1, 1.0f / 64));
-  EXPECT_EQ(c.optics.emission, Vec3f(8, 0, 1));
-  EXPECT_EQ(c.number_or(Number::kRoughness, -1), 0.125f);
-}
-
-TEST(MergeProduct, AFactorOfOneChangesNothing) {
-  std::vector<float> data;
-  for (int i = 0; i < 400; ++i) data.push_back(static_cast<float>(i) * 0.55f);
-  Row plain(data), both(data);
-  plain.rule(rule_of(RuleKind::kCoefficientCurve, "data", kCurve));
-  both.transfer.merge = Merge::kProduct;
-  both.with("one", std::vector<float>(data.size(), 1));
-  both.rule(rule_of(RuleKind::kCoefficientCurve, "data", kCurve));
-  both.rule(rule_of(RuleKind::kCoefficientSteps, "one", {opacity_point(0, 1)}));
-  for (int i = 0; i < 400; ++i) EXPECT_EQ(both.at(i).optics.mu_t, plain.at(i).optics.mu_t) << i;
-}
-
-TEST(MergeProduct, WhereARuleDoesNotApplyIsNothing) {
-  Row row({1, 1, 1});
-  row.with("organs", {0, 1, 2}, Lookup::kNearest);
-  row.transfer.merge = Merge::kProduct;
-  row.transfer.points = {opacity_point(0, 0.5)};
-  row.rule(rule_of(RuleKind::kCoefficientPoints, "organs", {opacity_point(1, 0.5), opacity_point(2, 0)}));
-  row.expect_opacities({0, 0.25, 0}, 4e-4);
-}
-
-TEST(MergePriority, FallsToTheCurve) {
-  Row row({150, 150, 150, 150});
-  row.with("organs", {0, 1, 2, kNaN}, Lookup::kNearest);
-  row.materials = {material("a", 0.9, 0.1), material("b", 0, 0.2)};
-  row.transfer.points = {opacity_point(0, 0.4)};
-  row.transfer.points[0].color = linear(0, 0, 1);
-  row.rule(rule_of(RuleKind::kMaterialPoints, "organs", {material_point(1, "a"), material_point(2, "b")}));
-  row.expect_opacities({0.4, 0.9, 0.4, 0.4});
-  EXPECT_EQ(row.at(0).material, -1);  // not listed
-  EXPECT_EQ(row.at(1).material, 0);
-  EXPECT_EQ(row.at(2).material, -1);  // opacity 0
-  EXPECT_EQ(row.at(2).number_or(Number::kRoughness, -1), -1.0f);
-  EXPECT_EQ(row.at(1).label_volume, 1);
-  EXPECT_EQ(row.at(0).label_volume, -1);
-  // The colour that the material lacks is the curve's.
-  EXPECT_EQ(row.at(1).optics.albedo, Vec3f(0, 0, 1));
-  row.transfer.smooth_labels = false;
-  EXPECT_EQ(row.at(1).label_volume, -1);
-}
-
-TEST(MergePriority, ColoursAloneColourWhatIsVisible) {
-  Row row({150, 150, -10});
-  row.with("organs", {0, 1, 1}, Lookup::kNearest);
-  row.transfer.points = {opacity_point(0, 0), opacity_point(0, 0.4)};
-  row.transfer.points[1].color = linear(0, 0, 1);
-  row.rule(rule_of(RuleKind::kCoefficientPoints, "organs", {color_point(1, linear(1, 0, 0))}));
-  row.expect_opacities({0.4, 0.4, 0});
-  EXPECT_EQ(row.at(0).optics.albedo, Vec3f(0, 0, 1));
-  EXPECT_EQ(row.at(1).optics.albedo, Vec3f(1, 0, 0));
-  EXPECT_EQ(row.at(2).given, 0u);
-}
-
-TEST(MergePriority, WithoutColoursMatterIsGrey) {
-  Row row({150});
-  row.rule(rule_of(RuleKind::kCoefficientCurve, "data", {opacity_point(0, 0.5)}));
-  EXPECT_EQ(row.at(0).optics.albedo, Vec3f(0.8f));
-}
-
-TEST(MergeMaximum, FusesTwoModalities) {
-  Row row({0, 100, 0, 100, 50});
-  row.with("pet", {0, 0, 10, 10, 10});
-  row.transfer.merge = Merge::kMaximum;
-  row.transfer.points = {opacity_point(0, 0), opacity_point(100, 0.8)};
-  row.transfer.points[0].color = linear(1, 1, 1);
-  row.transfer.points[0].roughness = 0.3;
-  std::vector<TransferPoint> hot{opacity_point(0, 0), opacity_point(10, 0.6)};
-  hot[0].color = linear(1, 0.5f, 0);
-  row.rule(rule_of(RuleKind::kCoefficientCurve, "pet", hot));
-  row.expect_opacities({0, 0.8, 0.6, 0.8, 0.6}, 3e-4);
-  EXPECT_EQ(row.at(1).optics.albedo, Vec3f(1, 1, 1));
-  EXPECT_EQ(row.at(2).optics.albedo, Vec3f(1, 0.5f, 0));
-  EXPECT_EQ(row.at(3).optics.albedo, Vec3f(1, 1, 1));
-  EXPECT_EQ(row.at(4).optics.albedo, Vec3f(1, 0.5f, 0));
-  EXPECT_EQ(row.at(4).surface_volume, 1);
-  EXPECT_EQ(row.at(3).surface_volume, 0);
-  // What the greatest does not give comes from the others.
-  EXPECT_EQ(row.at(4).number_or(Number::kRoughness, -1), 0.3f);
-}
-
-TEST(OpacityVolume, IsThatOfTheOwnPoints) {
-  Row row({0, 24, 26, 74, 76, 100, 100, kNaN});
-  row.transfer.points = {opacity_point(0, 0), opacity_point(100, 0.9)};
-  row.materials = {material("glass", 0.1, 0.0), material("metal", 0.95, 0.5)};
-  row.rule(rule_of(RuleKind::kMaterialSteps, "opacity",
-                   {material_point(0.225, "glass"), material_point(0.675, "metal")}));
-  row.expect_opacities({0, 0.216, 0.1, 0.1, 0.95, 0.95, 0, 0}, 3e-4);
-  EXPECT_EQ(row.at(1).material, -1);
-  EXPECT_EQ(row.at(2).material, 0);
-  EXPECT_EQ(row.at(4).material, 1);
-}
-
-TEST(OpacityVolume, IsNowhereWhereTheDataIs) {
-  Row row({0, 100, 100, kNaN});
-  row.transfer.points = {opacity_point(0, 0), opacity_point(100, 0.9)};
-  row.rule(rule_of(RuleKind::kCoefficientSteps, "opacity", {opacity_point(-1, 0.5)}));
-  row.expect_opacities({0.5, 0.5, 0, 0});
-}
-
 TEST(ReferenceLengthAndScale, ConvertEveryRule) {
   for (const double length : {0.5, 4.0})
     for (const double scale : {0.25, 2.0, 0.0}) {
@@ -377,12 +178,12 @@ TEST(ReferenceLengthAndScale, ConvertEveryRule) {
 }
 
 TEST(Proxies, NothingAppliesOutside) {
-  RuleVolumeSet volumes(test::make_volume<float>({10, 4, 4}, [](auto, auto, auto) { return 1; }));
-  test::Placement place;
+  RuleVolumeSet volumes(make_volume<float>({10, 4, 4}, [](auto, auto, auto) { return 1; }));
+  Placement place;
   place.origin_mm = {4, 0, 0};
   for (const Lookup lookup : {Lookup::kLinear, Lookup::kNearest})
     volumes.add(lookup == Lookup::kLinear ? "soft" : "hard",
-                test::make_volume<std::uint8_t>(
+                make_volume<std::uint8_t>(
                     {3, 4, 4}, [](auto, auto, auto) { return 5; }, place),
                 lookup);
   TransferDescription transfer;
@@ -402,14 +203,14 @@ TEST(Proxies, NothingAppliesOutside) {
 
 TEST(Proxies, NearestLookUpsInventNoLabels) {
   const auto place = [](double shift) {
-    test::Placement out;
+    Placement out;
     out.origin_mm = {shift, 0, 0};
     return out;
   };
   for (const double shift : {0.0, 0.3}) {
-    RuleVolumeSet volumes(test::make_volume<float>({20, 5, 5}, [](auto, auto, auto) { return 1; }));
+    RuleVolumeSet volumes(make_volume<float>({20, 5, 5}, [](auto, auto, auto) { return 1; }));
     volumes.add("organs",
-                test::make_volume<std::uint8_t>(
+                make_volume<std::uint8_t>(
                     {20, 5, 5}, [](auto i, auto j, auto k) { return (i + j + k) % 2 ? 7 : 0; }, place(shift)),
                 Lookup::kNearest);
     TransferDescription transfer;
@@ -421,7 +222,7 @@ TEST(Proxies, NearestLookUpsInventNoLabels) {
     Rng rng(3, 0, 0, 0);
     int of[2] = {0, 0};
     for (int n = 0; n < 20000; ++n) {
-      const Vec3f p = test::random_point(volumes.voxels(0), rng);
+      const Vec3f p = random_point(volumes.voxels(0), rng);
       const float mu_t = classify_mu_t(classifier.view(), p, 1);
       if (mu_t == 0 && p.x < 0) continue;  // outside the shifted grid
       const bool background = std::abs(mu_t - extinction(0.1, 1, 1)) < 1e-5;
@@ -435,17 +236,17 @@ TEST(Proxies, NearestLookUpsInventNoLabels) {
 
 /// Volumes on the same grid, shifted, turned and smaller ones, with holes.
 RuleVolumeSet various_volumes() {
-  const test::Size3 size{14, 12, 10};
-  RuleVolumeSet out(test::noise_volume<float>(size, -10, 10, 1));
-  out.add("same", test::noise_volume<std::uint8_t>(size, 0, 6, 2), Lookup::kNearest);
-  test::Placement place = test::placements()[3];
+  const Size3 size{14, 12, 10};
+  RuleVolumeSet out(noise_volume<float>(size, -10, 10, 1));
+  out.add("same", noise_volume<std::uint8_t>(size, 0, 6, 2), Lookup::kNearest);
+  Placement place = placements()[3];
   place.spacing_mm = {0.8, 1.3, 1.1};
   place.origin_mm = {6, 3, 2};
-  out.add("turned", test::noise_volume<std::int16_t>({9, 9, 9}, -40, 40, 3, place), Lookup::kLinear);
+  out.add("turned", noise_volume<std::int16_t>({9, 9, 9}, -40, 40, 3, place), Lookup::kLinear);
   place.origin_mm = {1, 10, 2};
   Rng rng(4, 0, 0, 0);
   out.add("labels",
-          test::make_volume<float>(
+          make_volume<float>(
               {9, 9, 9},
               [&](auto, auto, auto) { return rng.next() < 0.1f ? kNaN : std::floor(9 * rng.next()); }, place),
           Lookup::kNearest);
@@ -454,16 +255,16 @@ RuleVolumeSet various_volumes() {
 
 TEST(Classify, HasTheExtinctionOfTheTrackers) {
   const RuleVolumeSet volumes = various_volumes();
-  const auto materials = test::random_rule_materials();
+  const auto materials = random_rule_materials();
   Rng rng(5, 0, 0, 0);
   int visible = 0;
   for (int set = 0; set < 200; ++set) {
-    test::RandomRules random(volumes, rng);
+    RandomRules random(volumes, rng);
     const TransferDescription transfer = random.transfer(static_cast<Merge>(set % 3), 1 + set % 5);
     const Classifier classifier(transfer, volumes.all(), materials);
     const ClassifierView view = classifier.view();
     for (int n = 0; n < 1000; ++n) {
-      const Vec3f p = test::random_point(volumes.voxels(0), rng);
+      const Vec3f p = random_point(volumes.voxels(0), rng);
       const float data = n % 50 == 0 ? kNaN : sample_trilinear(volumes.main(), p);
       const Classified c = classify(view, p, data);
       ASSERT_EQ(c.optics.mu_t, classify_mu_t(view, p, data)) << "set " << set;
@@ -481,4 +282,4 @@ TEST(Classify, HasTheExtinctionOfTheTrackers) {
 }
 
 }  // namespace
-}  // namespace voxlume
+}  // namespace voxlume::test

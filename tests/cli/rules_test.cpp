@@ -1,0 +1,122 @@
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli_fixture.h"
+#include "image_io/image_io.h"
+#include "support/volumes.h"
+#include "voxlume/volume_io.h"
+
+namespace voxlume::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+class CliRules : public CliTest {
+ protected:
+  void SetUp() override {
+    CliTest::SetUp();
+    // The left half of the ball is label 2; a grid of its own.
+    Placement place;
+    place.spacing_mm = {2, 2, 2};
+    place.origin_mm = {-10, -10, -14};
+    std::filesystem::create_directory(folder_ / "maps");
+    write_volume(make_volume<std::uint8_t>(
+                     {11, 11, 15}, [](auto i, auto, auto) { return i < 5 ? 2 : 0; }, place),
+                 folder_ / "maps/organs.nrrd");
+  }
+
+  static json scene() {
+    return json::parse(R"({
+      "version": 1, "volume": {"path": "ball.nrrd"},
+      "proxies": [{"name": "organs", "kind": "file", "path": "maps/organs.nrrd", "lookup": "nearest"},
+                  {"name": "steep", "kind": "gradient"}],
+      "materials": [{"name": "shell", "like": "gold", "opacity": 1, "color": {"linear": [1, 0, 0]}}],
+      "transfer": {
+        "points": [{"value": 0, "opacity": 0},
+                   {"value": 900, "opacity": 0.9, "color": {"linear": [0, 0, 1]}}],
+        "rules": [{"kind": "mdptf", "volume": "organs", "points": [{"value": 2, "material": "shell"}]},
+                  {"kind": "cctf", "volume": "data", "along": "steep", "column_form": "curve",
+                   "columns": [{"at": 0, "points": [{"value": 0, "roughness": 0.3}]}]}]},
+      "background": {"kind": "color", "color": "#000000"}})");
+  }
+  RunResult render_scene(const json& scene, const std::string& out,
+                         const std::vector<std::string>& more = {}) const {
+    write("s.json", scene.dump());
+    return render("s.json", out, more);
+  }
+  void expect_refused(const json& scene, const std::string& path) const {
+    const RunResult r = render_scene(scene, "o.png");
+    EXPECT_EQ(r.code, 2) << path;
+    EXPECT_EQ(line_count(r.err), 1) << r.err;
+    EXPECT_THAT(r.err, HasSubstr(path));
+    EXPECT_FALSE(exists("o.png"));
+  }
+};
+
+TEST_F(CliRules, RenderProxiesRulesAndMaterials) {
+  const RunResult r = render_scene(scene(), "o.exr", {"--stats", "stats.json"});
+  ASSERT_EQ(r.code, 0) << r.err;
+  EXPECT_EQ(r.err.find("warning"), std::string::npos) << r.err;
+  EXPECT_EQ(json::parse(read("stats.json"))["majorant_violations"], 0);
+  const Image image = read_image(folder_ / "o.exr");
+  // The eye looks at the face: the patient's right, where x is negative, is on the picture's left.
+  const auto sum = [&](int first, int last, int channel) {
+    float out = 0;
+    for (int y = 0; y < image.height; ++y)
+      for (int x = first; x < last; ++x) out += image.pixel(x, y)[channel];
+    return out;
+  };
+  EXPECT_GT(sum(0, 10, 0), 4 * sum(0, 10, 2)) << "the label's half is red";
+  EXPECT_GT(sum(14, 24, 2), 2 * sum(14, 24, 0)) << "the rest is blue";
+}
+
+TEST_F(CliRules, SavedScenesGiveTheIdenticalPicture) {
+  std::filesystem::create_directory(folder_ / "sub");
+  ASSERT_EQ(render_scene(scene(), "a.exr", {"--save-scene", "sub/t.json"}).code, 0);
+  ASSERT_EQ(run({"render", "sub/t.json", "-o", "b.exr"}).code, 0);
+  EXPECT_EQ(read_image(folder_ / "a.exr").rgba, read_image(folder_ / "b.exr").rgba);
+}
+
+TEST_F(CliRules, PathsOfProxiesStartFromTheScenesFolder) {
+  ASSERT_EQ(render_scene(scene(), "a.exr").code, 0);
+  json other = scene();
+  other["volume"]["path"] = "../ball.nrrd";
+  other["proxies"][0]["path"] = "organs.nrrd";
+  write("maps/s.json", other.dump());
+  const RunResult r = render("maps/s.json", "b.exr");
+  ASSERT_EQ(r.code, 0) << r.err;
+  EXPECT_EQ(read_image(folder_ / "a.exr").rgba, read_image(folder_ / "b.exr").rgba);
+  ASSERT_EQ(render("maps/s.json", "b.exr", {"--save-scene", "maps/t.json"}).code, 0);
+  EXPECT_EQ(json::parse(read("maps/t.json"))["proxies"][0]["path"], "organs.nrrd");
+}
+
+TEST_F(CliRules, PicturesHoldNoPathsOfProxies) {
+  ASSERT_EQ(render_scene(scene(), "o.exr").code, 0);
+  EXPECT_EQ(read("o.exr").find("maps/organs"), std::string::npos);
+}
+
+TEST_F(CliRules, WrongOnesAreRefusedInOneLine) {
+  json wrong = scene();
+  wrong["transfer"]["rules"][0]["points"][0]["value"] = 3;
+  expect_refused(wrong, "/transfer/rules/0/points/0/value");
+  wrong = scene();
+  wrong["transfer"]["rules"][0]["points"][0]["material"] = "gum";
+  expect_refused(wrong, "/transfer/rules/0/points/0/material");
+  wrong = scene();
+  wrong["transfer"]["rules"][1]["along"] = "stepe";
+  expect_refused(wrong, "/transfer/rules/1/along");
+  wrong = scene();
+  wrong["proxies"][1]["of"] = "organ";
+  expect_refused(wrong, "/proxies/1/of");
+  wrong = scene();
+  wrong["materials"][0]["like"] = "silver";
+  expect_refused(wrong, "/materials/0/like");
+  wrong = scene();
+  wrong["render"] = {{"accelerator", "octree"}};
+  expect_refused(wrong, "/render/accelerator");
+}
+
+}  // namespace
+}  // namespace voxlume::test
