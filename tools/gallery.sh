@@ -23,6 +23,19 @@ picture generic $mri --preset generic --camera 25,10,1.3
 picture labels data/mri-brain.nii.gz --preset mri-head --labels data/aal.nii.gz --camera 60,25,1.6
 picture clip $ct --preset ct-muscle-bone --clip :,:,:10 --camera 20,50,1.4
 picture environment $ct --preset ct-skin --env data/env/sunset.exr --background env --camera 25,5,1.4
+for scene in head-materials brain-regions brodmann-areas fusion merge-product merge-priority illustration toon; do
+  picture $scene examples/$scene.json
+done
+picture self-occlusion-1 examples/head-materials.json
+picture self-occlusion-03 examples/head-materials.json --set /material/self_occlusion=0.3
+materials=$(mktemp -d)
+for material in $(build/release/voxlume materials | cut -d' ' -f1); do
+  printf 'gallery: material %s\n' "$material" >&2
+  build/release/voxlume render examples/material.json -o "$materials/$material.png" --size 170x170 --spp $spp \
+    --set /transfer/rules/0/points/0/material="$material"
+done
+python3 tools/contact_sheet.py 6 "$out/materials.png" "$materials" || echo "materials.png needs python3 with Pillow" >&2
+rm -rf "$materials"
 if [ "$out" = docs/pictures ]; then size=720x480; fi
 picture hero $ct --preset ct-muscle-bone --camera 35,12,1.5
 if [ "$out" = docs/pictures ]; then  # docs/metrics.md

@@ -18,6 +18,7 @@ void add_convert_command(CLI::App& program, Action& action);
 void add_denoise_command(CLI::App& program, Action& action);
 void add_compare_command(CLI::App& program, Action& action);
 void add_presets_command(CLI::App& program, Action& action);
+void add_materials_command(CLI::App& program, Action& action);
 void add_schema_command(CLI::App& program, Action& action);
 void add_view_command(CLI::App& program, Action& action);
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "cli/commands.h"
+#include "scene/material_library.h"
 #include "scene/presets.h"
 #include "scene/scene_schema.h"
 #include "voxlume/error.h"
@@ -14,6 +15,17 @@ void add_presets_command(CLI::App& program, Action& action) {
       for (const Preset& preset : presets()) {
         fmt::print("{:<16} {}\n", preset.name, preset.summary);
       }
+      return kDone;
+    };
+  });
+}
+
+void add_materials_command(CLI::App& program, Action& action) {
+  CLI::App* const command = program.add_subcommand("materials", "List the materials that rules may name");
+  command->callback([&action] {
+    action = [] {
+      for (const LibraryMaterial& material : material_library())
+        fmt::print("{:<16} {}\n", material.description.name, material.summary);
       return kDone;
     };
   });
@@ -37,7 +49,7 @@ void add_view_command(CLI::App& program, Action& action) {
   command->callback([&action] {
     action = []() -> int {
       throw Error(ErrorCode::kUnsupported, "",
-                  "view is not built yet; available: render, info, convert, compare, presets, schema");
+                  "view is not built yet; available: render, info, convert, compare, presets, materials, schema");
     };
   });
 }

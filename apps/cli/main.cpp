@@ -92,6 +92,7 @@ int run(int argc, char** argv) {
   add_denoise_command(program, action);
   add_compare_command(program, action);
   add_presets_command(program, action);
+  add_materials_command(program, action);
   add_schema_command(program, action);
   add_view_command(program, action);
   try {
@@ -107,7 +108,7 @@ int run(int argc, char** argv) {
   }
   if (!action)
     return report(kBadUsage,
-                  "no command; expected one of render, info, convert, denoise, compare, presets, "
+                  "no command; expected one of render, info, convert, denoise, compare, presets, materials, "
                   "schema (see voxlume --help)");
   return action();
 }

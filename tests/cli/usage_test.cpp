@@ -27,6 +27,7 @@ TEST_F(CliTest, SchemaAndPresets) {
   EXPECT_THAT(run({"schema"}).out, HasSubstr("json-schema.org/draft/2020-12"));
   EXPECT_THAT(run({"schema", "--markdown"}).out, testing::StartsWith("# The scene file"));
   EXPECT_THAT(run({"presets"}).out, HasSubstr("ct-bone"));
+  EXPECT_THAT(run({"materials"}).out, HasSubstr("frosted-glass"));
 }
 
 /// `arguments` end in exit code 2 with one line on stderr that has `message` in it, and leave no files.
