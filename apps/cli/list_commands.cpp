@@ -48,8 +48,9 @@ void add_view_command(CLI::App& program, Action& action) {
   command->allow_extras();
   command->callback([&action] {
     action = []() -> int {
-      throw Error(ErrorCode::kUnsupported, "",
-                  "view is not built yet; available: render, info, convert, compare, presets, materials, schema");
+      throw Error(
+          ErrorCode::kUnsupported, "",
+          "view is not built yet; available: render, info, convert, compare, presets, materials, schema");
     };
   });
 }
