@@ -144,7 +144,7 @@ CameraPath::Wait CameraPath::end_scattering(const SceneView& scene, const Scatte
         scene.keeps_parts && extinction_of(scene.medium, query_.p_index, query_.value) > scene.dense_mu_t;
   }
   if (scene.illustration.on) {
-    radiance_ = illustrated(scene.illustration, matter, -direction_world_);
+    radiance_ = throughput_ * illustrated(scene.illustration, matter, -direction_world_);
     return end();
   }
   if (scattered_out(scene)) return end();

@@ -2,9 +2,7 @@
 // density_scale multiplies leaves opacities, and so surfaces, as they are.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <numbers>
-#include <string_view>
 
 #include "blob_scene.h"
 #include "same_mean.h"
@@ -278,14 +276,7 @@ TEST(RgbExtinction, ColorsAreInterpolatedBetweenPoints) {
   }
 }
 
-/// Whether the accelerator that all tests are run with takes rules.
-bool takes_rules() {
-  const char* const name = std::getenv("VOXLUME_TEST_ACCELERATOR");
-  return !name || std::string_view("none macrocell hierarchy auto").find(name) != std::string_view::npos;
-}
-
 TEST(RgbExtinction, RulesMergeColors) {
-  if (!takes_rules()) GTEST_SKIP() << "bounds one function of one volume";
   SceneDescription scene = blob_scene();
   scene.environment->intensity = 0.6;
   scene.lights = {area_light()};
@@ -305,7 +296,6 @@ TEST(RgbExtinction, RulesMergeColors) {
 }
 
 TEST(RgbExtinction, NamedMaterialsGiveColors) {
-  if (!takes_rules()) GTEST_SKIP() << "bounds one function of one volume";
   SceneDescription scene = blob_scene();
   scene.environment->intensity = 0.6;
   scene.render.max_scatter = 2;

@@ -121,7 +121,7 @@ struct Estimate {
 };
 
 /// What the whole program is run with: the accelerator that VOXLUME_TEST_ACCELERATOR names ("thresholds": the
-/// hierarchy by that rule) where the scene's trackers can do with it, and the instruction set that
+/// hierarchy by that rule) where the scene's trackers and rules can do with it, and the instruction set that
 /// VOXLUME_TEST_SIMD names if this machine has it.
 inline SceneDescription as_tested(SceneDescription description) {
   RenderDescription& render = description.render;
@@ -130,8 +130,11 @@ inline SceneDescription as_tested(SceneDescription description) {
     const bool has_minima = name == "none" || name == "macrocell";
     const bool needs_minima = render.transmittance != TransmittanceEstimator::kRatio ||
                               render.free_flight != FreeFlightSampling::kDelta;
-    if (has_minima || !needs_minima) render.accelerator = name == "thresholds" ? "hierarchy" : name;
-    if (name == "thresholds") render.hierarchy_rule = "thresholds";
+    const bool has_rules = !description.transfer.rules.empty();
+    if (has_minima || !(needs_minima || has_rules)) {
+      render.accelerator = name == "thresholds" ? "hierarchy" : name;
+      if (name == "thresholds") render.hierarchy_rule = "thresholds";
+    }
   }
   if (const char* variable = std::getenv("VOXLUME_TEST_SIMD")) {
     const std::string name = variable;
