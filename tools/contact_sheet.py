@@ -14,4 +14,4 @@ for i, (file, picture) in enumerate(zip(files, pictures)):
     x, y = i % columns * width, i // columns * height
     sheet.paste(picture, (x, y))
     draw.text((x + 6, y + height - 16), file.stem, fill=(230, 230, 230))
-sheet.save(out)
+sheet.quantize(256).save(out, optimize=True)

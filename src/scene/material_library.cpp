@@ -6,18 +6,11 @@
 
 #include "scene/field_info.h"
 #include "scene/field_types.h"
-#include "tonemap/srgb.h"
+#include "scene/hex_color.h"
 #include "voxlume/error.h"
 
 namespace voxlume {
 namespace {
-
-Color srgb(int hex) {
-  const auto channel = [&](int shift) {
-    return linear_from_srgb(static_cast<float>(hex >> shift & 255) / 255.0f);
-  };
-  return {{channel(16), channel(8), channel(0)}};
-}
 
 /// What most materials are told by; the rest is set after.
 LibraryMaterial material(const char* name, const char* summary, int color, double roughness, double specular,
@@ -25,7 +18,7 @@ LibraryMaterial material(const char* name, const char* summary, int color, doubl
   LibraryMaterial out;
   out.summary = summary;
   out.description.name = name;
-  out.description.color = srgb(color);
+  out.description.color = hex_color(color);
   out.description.roughness = roughness;
   out.description.specular = specular;
   out.description.surface_share = surface_share;

@@ -4,24 +4,17 @@
 #include <cmath>
 
 #include "scene/field_info.h"
-#include "tonemap/srgb.h"
+#include "scene/hex_color.h"
 #include "voxlume/error.h"
 
 namespace voxlume {
 namespace {
 
-Color srgb(int hex) {
-  const auto channel = [&](int shift) {
-    return linear_from_srgb(static_cast<float>(hex >> shift & 255) / 255.0f);
-  };
-  return {{channel(16), channel(8), channel(0)}};
-}
-
 TransferPoint point(double value, double opacity, int hex) {
   TransferPoint p;
   p.value = value;
   p.opacity = opacity;
-  p.color = srgb(hex);
+  p.color = hex_color(hex);
   return p;
 }
 
