@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "measure.h"
+#include "scene/tracking_choice.h"
 #include "tracking/tracking.h"
 #include "voxlume/error.h"
 

@@ -155,6 +155,8 @@ constexpr Row kRows[] = {
     {"--noise", "X", "/image/noise"},
     {"--seed", "N", "/render/seed"},
     {"--max-scatter", "N", "/render/max_scatter"},
+    {"--integrator", "NAME", "/render/integrator",
+     "path, or as another renderer would: exposure-render, rmss, vpl-dvr, ar2t (docs/peers.md)"},
     {"--shading", "NAME", "/material/shading",
      "coexistence, er, phase or brdf: surface and medium together, one of the two by chance, or one alone"},
     {"--roughness", "R", "/material/roughness"},

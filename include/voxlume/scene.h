@@ -240,6 +240,9 @@ enum class TransmittanceEstimator { kRatio, kResidual, kMarching };
 enum class FreeFlightSampling { kDelta, kDecomposition };
 /// Single: one mu_t for all channels. Rgb: mu_t times the extinction colour (docs/rgb-extinction.md).
 enum class Extinction { kSingle, kRgb };
+/// How a picture is computed: by path tracing, or as other renderers do (docs/peers.md). Ar2t is path tracing
+/// with materials by opacity; resolve() writes those out.
+enum class Integrator { kPath, kExposureRender, kRmss, kVplDvr, kAr2t };
 enum class ToneCurve { kFilmic, kSrgb };
 
 /// The picture: its size, how long to work on it and how it is developed.
@@ -272,6 +275,10 @@ struct IllustrationDescription {
 
 /// How the light is computed.
 struct RenderDescription {
+  Integrator integrator = Integrator::kPath;
+  double march_step_voxels = 3;       ///< of integrators that march: in edges of the smallest voxel side, > 0
+  int virtual_lights = 1024;          ///< vpl-dvr: light particles traced, each leaving one or more
+  double virtual_light_radius = 0.05;  ///< vpl-dvr: nearer ones count as this far; of the visible radius, > 0
   std::uint64_t seed = 0;
   std::uint32_t frame = 0;
   int max_scatter = 2;               ///< 0 is without limit, ended by Russian roulette

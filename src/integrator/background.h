@@ -22,7 +22,8 @@ inline Vec3f background_radiance(const SceneView& scene, float px, float py, Vec
       break;
   }
   if (blurs_background(scene)) direction_world = background_direction(scene.camera, px, py, u0, u1);
-  return environment_hit(scene.lights, direction_world).radiance;
+  if (!scene.lights.has_environment) return Vec3f(0);
+  return eval_environment(scene.lights.environment, direction_world).radiance;
 }
 
 }  // namespace voxlume

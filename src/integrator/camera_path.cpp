@@ -5,6 +5,7 @@
 #include "integrator/background.h"
 #include "integrator/illustration.h"
 #include "integrator/unshadowed.h"
+#include "integrator/virtual_lights.h"
 
 namespace voxlume {
 namespace {
@@ -157,6 +158,8 @@ CameraPath::Wait CameraPath::end_scattering(const SceneView& scene, const Scatte
     first_light_.fx = unshadowed_shading(scene.lights, kernel(scene), matter_.p_world);
   ++counters.scatterings;
   radiance_ += throughput_ * matter_.scatter.albedo * scene.ambient;
+  if (depth_ == 0 && scene.virtual_lights.count > 0)
+    radiance_ += throughput_ * light_of_virtual(scene, kernel(scene), matter_.p_world, rng_);
   if (!query_.samples_light) return turn(scene, counters);
   --light_samples_left_;
   if (cast(scene, scattering.light, scattering.toward_light, scattering.light_ray, counters)) {
@@ -175,7 +178,7 @@ Vec3f CameraPath::met_emitters(const SceneView& scene, const Collision& collisio
   if (meets_rect_)
     visit_rect_hits(scene.lights, origin_world_, direction_world_, collision.t_mm,
                     [&](const LightHit& hit) { met += weighted(scene, hit); });
-  if (!collision.real) met += weighted(scene, environment_hit(scene.lights, direction_world_));
+  if (!collision.real) met += weighted(scene, environment_hit(scene.lights, origin_world_, direction_world_));
   return met;
 }
 
@@ -308,7 +311,7 @@ CameraPath::Wait CameraPath::turn(const SceneView& scene, TraceCounters& counter
 /// transmittance tells with less variance.
 CameraPath::Wait CameraPath::reach_lights(const SceneView& scene, TraceCounters& counters) noexcept {
   if (meets_rect_) return fly(scene);  // light at its own distance takes a flight
-  const Vec3f met = weighted(scene, environment_hit(scene.lights, direction_world_));
+  const Vec3f met = weighted(scene, environment_hit(scene.lights, origin_world_, direction_world_));
   unshadowed_ = throughput_ * met;
   first_light_.arriving = met * first_light_.weight;
   if (!(max_component(unshadowed_) > 0)) return end();

@@ -215,11 +215,10 @@ CameraPath::Wait track(const SceneView& scene, CameraPath::Wait wait, CameraPath
                        TrackingCounters& tracking, TraceCounters& counters) noexcept {
   const Medium& medium = scene.medium;
   if (wait == CameraPath::Wait::kFlight)
-    return path.end_flight(
-        scene, sample_free_flight(scene.trackers.free_flight, medium, path.ray(), path.rng(), tracking));
+    return path.end_flight(scene,
+                           sample_free_flight(scene.trackers, medium, path.ray(), path.rng(), tracking));
   return path.end_shadow_ray(
-      scene, estimate_transmittance(scene.trackers.transmittance, medium, path.ray(), path.rng(), tracking),
-      counters);
+      scene, estimate_transmittance(scene.trackers, medium, path.ray(), path.rng(), tracking), counters);
 }
 
 /// The same where channels have extinctions of their own.

@@ -43,6 +43,16 @@ struct IllustrationView {
   Vec3f contour_color{0};
 };
 
+struct VirtualLight;
+/// Virtual point lights (integrator/virtual_lights.h).
+struct VirtualLightsView {
+  const VirtualLight* lights = nullptr;
+  std::int32_t count = 0;
+  const std::uint16_t* transmittance = nullptr;  ///< by light, direction and distance; 65535 is 1
+  float reach_mm = 1;                            ///< the greatest of the distances
+  float nearest_mm = 1;                          ///< nearer lights count as this far
+};
+
 enum class LightSampling { kMis, kLight, kDirection };
 
 /// Everything a path needs, as plain data. Compiled once by CompiledScene, which owns what this points to.
@@ -59,6 +69,7 @@ struct SceneView {
   IllustrationView illustration;
 
   LightsView lights;
+  VirtualLightsView virtual_lights;  ///< what they give is added at a path's first scattering
   Vec3f ambient{0};  ///< radiance added unshadowed at every scattering (xu2024 6.1)
   CameraView camera;
   BackgroundKind background = BackgroundKind::kColor;

@@ -149,8 +149,9 @@ bool emits(Vec3f emission) { return max_component(emission) > 0.0f; }
 
 Lights::Lights(const std::vector<LightDescription>& lights, const EnvironmentDescription& environment,
                const EnvironmentImage* image, const ViewFrame& camera, const SceneSphere& scene,
-               EnvironmentSamples samples) {
-  compile_environment(environment, image, samples);
+               EnvironmentSamples samples)
+    : samples_(samples) {
+  compile_environment(environment, image);
   update(lights, environment, camera, scene);
 }
 
@@ -184,16 +185,15 @@ void Lights::turn_environment(const EnvironmentDescription& d, const ViewFrame& 
   environment_.axis_z = Vec3f(z);
 }
 
-void Lights::compile_environment(const EnvironmentDescription& d, const EnvironmentImage* image,
-                                 EnvironmentSamples samples) {
+void Lights::compile_environment(const EnvironmentDescription& d, const EnvironmentImage* image) {
   const Vec3f scale(checked_emission(d.color, d.intensity, "/environment"));
   if (image) {
     compile_image(*image, scale);
-    compile_choice(samples);
+    compile_choice();
   } else {
     environment_.constant = scale;
     mean_environment_ = scale;
-    sampled_environment_ = samples == EnvironmentSamples::kWhole ? luminance(Vec3d(scale)) : 0.0;
+    sampled_environment_ = samples_ == EnvironmentSamples::kExcess ? 0.0 : luminance(Vec3d(scale));
   }
   has_environment_ = emits(mean_environment_);
 }
@@ -227,14 +227,15 @@ void Lights::compile_image(const EnvironmentImage& image, Vec3f scale) {
   mean_environment_ = Vec3f(mean);
 }
 
-void Lights::compile_choice(EnvironmentSamples samples) {
+void Lights::compile_choice() {
   const auto width = static_cast<std::size_t>(environment_.width);
-  const double left_out = samples == EnvironmentSamples::kExcess ? luminance(Vec3d(mean_environment_)) : 0.0;
+  const double left_out = samples_ == EnvironmentSamples::kExcess ? luminance(Vec3d(mean_environment_)) : 0.0;
   const std::vector<double> share = texel_shares(environment_.width, environment_.height);
   std::vector<double> weights(texels_.size());
   for (std::size_t i = 0; i < weights.size(); ++i) {
     weights[i] = share[i / width] * std::max(0.0, luminance(Vec3d(texels_[i])) - left_out);
     sampled_environment_ += weights[i];
+    if (samples_ == EnvironmentSamples::kUniform) weights[i] = share[i / width];
   }
   texel_choice_ = Distribution2D(weights, environment_.width, environment_.height);
 }
@@ -252,7 +253,9 @@ void Lights::compile_pick(const SceneSphere& scene) {
   for (std::size_t i = 0; i < weights.size(); ++i) {
     const bool emitting = i < lights_.size() || environment_sampled;
     const double share = total > 0 ? weights[i] / total : 0.0;
-    weights[i] = emitting ? 0.9 * share + 0.1 / count : 0.0;
+    const double probability =
+        samples_ == EnvironmentSamples::kUniform ? 1 / count : 0.9 * share + 0.1 / count;
+    weights[i] = emitting ? probability : 0.0;
   }
   pick_ = Distribution1D(weights);
 }

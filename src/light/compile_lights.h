@@ -18,7 +18,8 @@ struct SceneSphere {
 /// What of the environment light samples are drawn for. kExcess: only what is above its mean; directions that
 /// matter scatters to find the rest, a constant environment altogether, and lights that are hard to find get
 /// the samples ("MIS compensation", Karlik et al. 2019). Complete only together with such directions.
-enum class EnvironmentSamples { kWhole, kExcess };
+/// kUniform: all directions alike, and all lights alike, as Exposure Render has it.
+enum class EnvironmentSamples { kWhole, kExcess, kUniform };
 
 /// The lights of a scene, validated and in LPS space. Owns the tables behind view().
 ///
@@ -48,11 +49,10 @@ class Lights {
   LightsView view() const;
 
  private:
-  void compile_environment(const EnvironmentDescription& description, const EnvironmentImage* image,
-                           EnvironmentSamples samples);
+  void compile_environment(const EnvironmentDescription& description, const EnvironmentImage* image);
   void turn_environment(const EnvironmentDescription& description, const ViewFrame& camera);
   void compile_image(const EnvironmentImage& image, Vec3f scale);
-  void compile_choice(EnvironmentSamples samples);
+  void compile_choice();
   void compile_pick(const SceneSphere& scene);
 
   std::vector<Light> lights_;
@@ -65,6 +65,7 @@ class Lights {
   Distribution1D pick_;
   Vec3f mean_environment_{0, 0, 0};
   double sampled_environment_ = 0;  ///< mean luminance of what light samples are drawn for
+  EnvironmentSamples samples_ = EnvironmentSamples::kWhole;
 };
 
 }  // namespace voxlume

@@ -1,4 +1,7 @@
 #pragma once
+#include <cstdint>
+
+#include "base/box.h"
 #include "base/vec.h"
 #include "sampling/distribution.h"
 #include "voxlume/scene.h"
@@ -28,6 +31,15 @@ struct EnvironmentView {
   const float* cap_versine = nullptr;  ///< [row] = 1 - cos(pi row / height), height + 1 of them
 };
 
+/// Where light of the environment comes from, remembered for cells of space: its radiance times how much of
+/// it gets there, for every one of DirectionBins. Samples take that half of the time, the environment's own
+/// distribution the other half: whatever it says, only the noise depends on it.
+struct EnvironmentGuideView {
+  Box3f box;  ///< LPS mm; points outside count as the nearest inside
+  std::int32_t count[3] = {0, 0, 0};
+  const float* cdf = nullptr;  ///< DirectionBins::kCount + 1 for a cell, x fastest; null: no guide
+};
+
 /// Every light, as the renderer's inner loops see it.
 struct LightsView {
   const Light* lights = nullptr;  ///< rect lights first
@@ -35,7 +47,8 @@ struct LightsView {
   int rect_count = 0;
   bool has_environment = false;
   EnvironmentView environment;
-  Vec3f environment_mean{0};  ///< radiance, over all directions
+  Vec3f environment_mean{0};   ///< radiance, over all directions
+  EnvironmentGuideView guide;  ///< of scalar code
   /// Probabilities of the lights, then of the environment (index light_count). No bins: nothing to sample.
   Distribution1DView pick;
 };

@@ -4,6 +4,7 @@
 
 #include "base/vec.h"
 #include "light/environment.h"
+#include "light/environment_guide.h"
 #include "light/lights_view.h"
 #include "light/rect_light.h"
 
@@ -60,7 +61,9 @@ inline LightSample sample_light(const LightsView& view, Vec3f p_world, float u_p
   const BinSample pick = sample_bin(view.pick, u_pick);
   LightSample sample;
   if (pick.index == view.light_count) {
-    const EnvironmentSample e = sample_environment(view.environment, u0, u1);
+    const EnvironmentSample e =
+        view.guide.cdf == nullptr ? sample_environment(view.environment, u0, u1)
+                                  : sample_environment_guided(view.environment, view.guide, p_world, u0, u1);
     sample = {e.wi, std::numeric_limits<float>::infinity(), e.radiance, e.pdf, false};
   } else {
     const Light& light = view.lights[pick.index];
@@ -76,11 +79,12 @@ inline float environment_probability(const LightsView& view) noexcept {
   return view.pick.count == 0 ? 0.0f : bin_probability(view.pick, view.light_count);
 }
 
-/// What a ray that escapes collects from the environment; also its picture behind the volume. `direction` is
-/// unit.
-inline LightHit environment_hit(const LightsView& view, Vec3f direction) noexcept {
+/// What a ray from p_world that escapes collects from the environment. `direction` is unit.
+inline LightHit environment_hit(const LightsView& view, Vec3f p_world, Vec3f direction) noexcept {
   if (!view.has_environment) return {Vec3f(0.0f), 0.0f};
-  const EnvironmentSample e = eval_environment(view.environment, direction);
+  const EnvironmentSample e = view.guide.cdf == nullptr
+                                  ? eval_environment(view.environment, direction)
+                                  : eval_environment_guided(view.environment, view.guide, p_world, direction);
   return {e.radiance, e.pdf * environment_probability(view)};
 }
 

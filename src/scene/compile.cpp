@@ -10,6 +10,7 @@
 #include "image_io/image_io.h"
 #include "scene/recenter.h"
 #include "scene/resolve.h"
+#include "scene/tracking_choice.h"
 #include "voxlume/error.h"
 #include "voxlume/volume_io.h"
 
@@ -23,8 +24,6 @@ constexpr double kMaxVoxelDepth = 1e5;
 
 Vec3f to_vec(const Color& color) { return {color.linear[0], color.linear[1], color.linear[2]}; }
 
-TrackerChoice trackers(const RenderDescription& render) { return {render.transmittance, render.free_flight}; }
-
 SimdTarget simd_target(const std::string& name) {
   if (name == "auto") return best_simd_target();
   std::string available = "auto";
@@ -36,17 +35,6 @@ SimdTarget simd_target(const std::string& name) {
   }
   throw Error(ErrorCode::kUnsupported, "/render/simd",
               "this machine has no \"" + name + "\"; available: " + available);
-}
-
-/// Throws where the trackers that a scene asks for do not go together.
-void check_trackers(const SceneDescription& scene) {
-  if (trackers(scene.render).is_default()) return;
-  if (scene.material.self_occlusion < 1)
-    throw Error(ErrorCode::kUnsupported, "/material/self_occlusion",
-                "below 1 needs transmittance ratio and free_flight delta");
-  if (scene.render.extinction == Extinction::kRgb)
-    throw Error(ErrorCode::kUnsupported, "/render/extinction",
-                "rgb needs transmittance ratio and free_flight delta");
 }
 
 /// A label volume and its colours, read and checked.
@@ -94,52 +82,6 @@ LightSampling light_sampling(const std::string& name) {
 
 }  // namespace
 
-AcceleratorChoice accelerator_choice(const SceneDescription& scene, const GridView& grid) {
-  const RenderDescription& render = scene.render;
-  AcceleratorChoice choice;
-  choice.cell_voxels = render.macrocell_voxels;
-  choice.costs.lookup = static_cast<float>(render.lookup_cost);
-  choice.thresholds = {static_cast<float>(render.hierarchy_thresholds[0]),
-                       static_cast<float>(render.hierarchy_thresholds[1])};
-  if (render.accelerator == "none") {
-    choice.kind = AcceleratorKind::kMacrocell;
-    choice.cell_voxels = std::max({grid.size[0], grid.size[1], grid.size[2], 1});
-  } else if (render.accelerator == "macrocell") {
-    choice.kind = AcceleratorKind::kMacrocell;
-  } else if (render.accelerator == "octree") {
-    choice.kind = AcceleratorKind::kSkippingOctree;
-  } else if (render.accelerator == "residency") {
-    choice.kind = AcceleratorKind::kResidency;
-  } else if (render.accelerator != "auto" && render.accelerator != "hierarchy") {
-    throw Error(ErrorCode::kBadParameter, "/render/accelerator",
-                "unknown \"" + render.accelerator +
-                    "\"; expected auto, none, macrocell, octree, hierarchy or residency");
-  } else if (render.hierarchy_rule == "thresholds") {
-    choice.kind = AcceleratorKind::kThresholdOctree;
-  } else if (render.hierarchy_rule != "cost") {
-    throw Error(ErrorCode::kBadParameter, "/render/hierarchy_rule",
-                "unknown \"" + render.hierarchy_rule + "\"; expected cost or thresholds");
-  }
-  if (!scene.transfer.rules.empty()) {
-    if (choice.kind != AcceleratorKind::kMacrocell && choice.kind != AcceleratorKind::kHierarchy)
-      throw Error(ErrorCode::kUnsupported, "/render/accelerator",
-                  "rules need auto, hierarchy (by cost), macrocell or none");
-    if (!trackers(render).is_default())
-      throw Error(ErrorCode::kUnsupported, "/render/transmittance",
-                  "rules need transmittance ratio and free_flight delta");
-  }
-  // The estimators that need the cells' minima.
-  if (!trackers(render).is_default()) {
-    if (render.accelerator == "auto") choice.kind = AcceleratorKind::kMacrocell;
-    if (choice.kind != AcceleratorKind::kMacrocell)
-      throw Error(ErrorCode::kUnsupported, "/render/accelerator",
-                  "the chosen transmittance or free_flight needs auto, none or macrocell, found \"" +
-                      render.accelerator + "\"");
-    choice.minima = CellMinima::kKept;
-  }
-  return choice;
-}
-
 /// What of a scene was compiled anew and may not be, for want of a change.
 struct CompiledScene::Parts {
   std::optional<TransferFunction> transfer;
@@ -183,6 +125,7 @@ void CompiledScene::compile(SceneDescription description, bool everything) {
   put_scattering(parts, description);
   put_illustration(description);
   put_image(description);
+  put_integrator(local, sphere, !everything && same_light(description, description_));
   description_ = std::move(description);
 }
 
@@ -230,6 +173,7 @@ void CompiledScene::compile_lights(const SceneDescription& local, bool everythin
       local.material.self_occlusion < 1 ? LightSampling::kLight : light_sampling(local.render.light_sampling);
   // The tables of the environment's picture are what takes long.
   const bool same_tables = !everything && sampling == view_.light_sampling &&
+                           local.render.integrator == description_.render.integrator &&
                            environment.image == description_.environment->image &&
                            environment.color == description_.environment->color &&
                            environment.intensity == description_.environment->intensity;
@@ -238,8 +182,7 @@ void CompiledScene::compile_lights(const SceneDescription& local, bool everythin
   } else {
     std::optional<EnvironmentImage> picture;
     if (!environment.image.empty()) picture = read_environment(environment.image);
-    const auto samples =
-        sampling == LightSampling::kMis ? EnvironmentSamples::kExcess : EnvironmentSamples::kWhole;
+    const auto samples = environment_samples(local.render, sampling);
     lights_ = Lights(*local.lights, environment, picture ? &*picture : nullptr, view_frame(camera), sphere,
                      samples);
   }
@@ -276,7 +219,7 @@ void CompiledScene::put_medium(Parts& parts, const SceneDescription& local) {
   }
   view_.medium.shadow_extinction = static_cast<float>(local.material.self_occlusion);
   view_.simd = simd_target(local.render.simd);
-  view_.trackers = trackers(local.render);
+  view_.trackers = tracker_choice(local.render, view_.medium.grid);
   view_.extinction = local.render.extinction;
   if (view_.extinction == Extinction::kRgb || !view_.trackers.is_default() ||
       !vector_tracker(view_.simd, view_.medium))

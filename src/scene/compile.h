@@ -6,7 +6,9 @@
 #include "accel/accelerator.h"
 #include "grid/value_range.h"
 #include "grid/volume_statistics.h"
+#include "integrator/environment_guide.h"
 #include "integrator/scene_view.h"
+#include "integrator/virtual_lights.h"
 #include "light/compile_lights.h"
 #include "scene/labels.h"
 #include "scene/materials.h"
@@ -17,10 +19,6 @@
 #include "voxlume/volume.h"
 
 namespace voxlume {
-
-/// The structure that a scene asks for. Throws Error kBadParameter for words it does not know, kUnsupported
-/// for what does not go together.
-AcceleratorChoice accelerator_choice(const SceneDescription& scene, const GridView& grid);
 
 /// A scene ready to trace: owns the voxels and every table that view() points to. World coordinates of view()
 /// are LPS mm from the volume's centre.
@@ -64,6 +62,7 @@ class CompiledScene {
   void put_scattering(Parts& parts, const SceneDescription& description);
   void put_illustration(const SceneDescription& description);
   void put_image(const SceneDescription& description);
+  void put_integrator(const SceneDescription& local, const SceneSphere& sphere, bool same_light);
   void warn_of_values(const VolumeStatistics& statistics);
 
   SceneDescription description_;
@@ -81,6 +80,8 @@ class CompiledScene {
   std::optional<Accelerator> accelerator_;
   std::optional<Lights> lights_;
   std::optional<TransferFunction> ramp_;  ///< of an illustration
+  std::optional<EnvironmentGuide> environment_guide_;
+  std::optional<VirtualLights> virtual_lights_;
   double majorant_build_ms_ = 0;
   SceneView view_;
 };

@@ -142,6 +142,11 @@ struct EnumWords<Extinction> {
   static constexpr std::array<std::string_view, 2> kWords{"single", "rgb"};
 };
 template <>
+struct EnumWords<Integrator> {
+  static constexpr std::array<std::string_view, 5> kWords{"path", "exposure-render", "rmss", "vpl-dvr",
+                                                          "ar2t"};
+};
+template <>
 struct EnumWords<ToneCurve> {
   static constexpr std::array<std::string_view, 2> kWords{"filmic", "srgb"};
 };

@@ -68,6 +68,26 @@ inline StructInfo struct_info(Struct<RenderDescription>) { return {"Render", "Ho
 template <class V>
 void visit_fields(V&& visit, Struct<RenderDescription>) {
   using T = RenderDescription;
+  visit({.key = "integrator",
+         .doc = "path: path tracing. As other renderers do, for comparison (docs/peers.md): exposure-render "
+                "marches rays and scatters once, rmss also remembers where the environment is visible from, "
+                "vpl-dvr adds virtual point lights, ar2t is path tracing with a material by opacity."},
+        &T::integrator);
+  visit({.key = "march_step_voxels",
+         .doc = "Length of a step of the integrators that march.",
+         .unit = "smallest voxel sides",
+         .range = between(0.05, 100)},
+        &T::march_step_voxels);
+  visit({.key = "virtual_lights",
+         .doc = "Integrator vpl-dvr: light particles that are traced.",
+         .range = between(1, 65536)},
+        &T::virtual_lights);
+  visit({.key = "virtual_light_radius",
+         .doc = "Integrator vpl-dvr: virtual lights that are nearer count as this far, which keeps them from "
+                "spots and loses light.",
+         .unit = "radii of what is visible",
+         .range = between(1e-4, 1)},
+        &T::virtual_light_radius);
   visit({.key = "seed",
          .doc = "Of the random numbers: the same seed gives the same picture.",
          .range = at_least(0)},

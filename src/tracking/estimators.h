@@ -25,21 +25,36 @@ float estimate_transmittance_marching(const Medium& medium, const TrackRay& ray,
 Collision sample_free_flight_decomposed(const Medium& medium, const TrackRay& ray, Rng& rng,
                                         TrackingCounters& counters) noexcept;
 
+// Exposure Render's ray marching (Kroes et al. 2012), which is biased: steps of step_mm > 0 from a random
+// offset in the first, until the sum of mu_t * step_mm passes a depth that is drawn. What is thinner than a
+// step is met by chance. mu_t is the medium's own, where Exposure Render squares its density scale.
+
+/// A flight that ends at the step where the depth is passed.
+Collision sample_free_flight_stepped(const Medium& medium, const TrackRay& ray, float step_mm, Rng& rng,
+                                     TrackingCounters& counters) noexcept;
+
+/// Whether nothing stops a flight: 0 or 1.
+float estimate_transmittance_stepped(const Medium& medium, const TrackRay& ray, float step_mm, Rng& rng,
+                                     TrackingCounters& counters) noexcept;
+
 /// Which of them a scene asks for.
 struct TrackerChoice {
   TransmittanceEstimator transmittance = TransmittanceEstimator::kRatio;
   FreeFlightSampling free_flight = FreeFlightSampling::kDelta;
+  float step_mm = 0;  ///< > 0: steps take the place of both
 
   /// Whether it is the pair that vector code tracks.
   bool is_default() const noexcept {
-    return transmittance == TransmittanceEstimator::kRatio && free_flight == FreeFlightSampling::kDelta;
+    return transmittance == TransmittanceEstimator::kRatio && free_flight == FreeFlightSampling::kDelta &&
+           !(step_mm > 0);
   }
 };
 
 /// The chosen estimate of the transmittance.
-inline float estimate_transmittance(TransmittanceEstimator choice, const Medium& medium, const TrackRay& ray,
+inline float estimate_transmittance(const TrackerChoice& choice, const Medium& medium, const TrackRay& ray,
                                     Rng& rng, TrackingCounters& counters) noexcept {
-  switch (choice) {
+  if (choice.step_mm > 0) return estimate_transmittance_stepped(medium, ray, choice.step_mm, rng, counters);
+  switch (choice.transmittance) {
     case TransmittanceEstimator::kResidual:
       return estimate_transmittance_residual(medium, ray, rng, counters);
     case TransmittanceEstimator::kMarching:
@@ -51,9 +66,10 @@ inline float estimate_transmittance(TransmittanceEstimator choice, const Medium&
 }
 
 /// The chosen free flight.
-inline Collision sample_free_flight(FreeFlightSampling choice, const Medium& medium, const TrackRay& ray,
+inline Collision sample_free_flight(const TrackerChoice& choice, const Medium& medium, const TrackRay& ray,
                                     Rng& rng, TrackingCounters& counters) noexcept {
-  return choice == FreeFlightSampling::kDecomposition
+  if (choice.step_mm > 0) return sample_free_flight_stepped(medium, ray, choice.step_mm, rng, counters);
+  return choice.free_flight == FreeFlightSampling::kDecomposition
              ? sample_free_flight_decomposed(medium, ray, rng, counters)
              : sample_free_flight(medium, ray, rng, counters);
 }

@@ -41,7 +41,8 @@ void expect_samples_fit(const Lights& lights, Vec3f axis, double width, int test
     return test::DirectionDraw{s.wi, s.pdf};
   };
   const double total = test::expect_directions_fit(
-      test::SphereBins(axis, width), draw, [&](Vec3f d) { return environment_hit(view, d).pdf; }, tests);
+      test::SphereBins(axis, width), draw, [&](Vec3f d) { return environment_hit(view, Vec3f(0), d).pdf; },
+      tests);
   EXPECT_NEAR(total, 1.0, 5e-4);
 }
 
@@ -64,7 +65,7 @@ TEST(Environment, LooksTheDocumentedWay) {
   for (std::size_t i = 0; i < 8 * 4; ++i) image.rgb[3 * i] = static_cast<float>(i);  // red names the texel
   const auto texel = [&](const EnvironmentDescription& d, const ViewFrame& camera, Vec3f direction) {
     const Lights lights({}, d, &image, camera, SceneSphere{});
-    return static_cast<int>(environment_hit(lights.view(), normalize(direction)).radiance.x);
+    return static_cast<int>(environment_hit(lights.view(), Vec3f(0), normalize(direction)).radiance.x);
   };
   EnvironmentDescription d;
   const ViewFrame front;
@@ -100,7 +101,7 @@ TEST(Environment, HitIsTheTexelScaled) {
   for (int i = 0; i < 20000; ++i) {
     const Vec3f direction = test::random_direction(rng);
     const Vec3d seen = seen_in_sky(image, Vec3d(direction));
-    const Vec3f hit = environment_hit(lights.view(), direction).radiance;
+    const Vec3f hit = environment_hit(lights.view(), Vec3f(0), direction).radiance;
     differing += std::abs(double{hit.x} - 3 * seen.x) > 1e-5 * seen.x ||
                  std::abs(double{hit.y} - 1.5 * seen.y) > 1e-5 * seen.y;
   }
@@ -117,7 +118,7 @@ TEST(Environment, SampleAgreesWithHit) {
     const LightSample s = sample_light(view, Vec3f(0.0f), u_pick, u0, u1);
     ASSERT_GT(s.pdf, 0.0f);
     ASSERT_TRUE(std::isinf(s.distance_mm) && !s.delta);
-    const LightHit hit = environment_hit(view, s.wi);
+    const LightHit hit = environment_hit(view, Vec3f(0), s.wi);
     differing += hit.pdf != s.pdf || hit.radiance != s.radiance;
   }
   EXPECT_LE(differing, 20);  // rounded across a texel's border
@@ -150,7 +151,7 @@ TEST(Environment, ExcessIsWhatIsSampled) {
   int dim = 0;
   for (int i = 0; i < 10000; ++i) {
     const float u0 = rng.next(), u1 = rng.next();
-    const LightHit hit = environment_hit(lights.view(), uniform_sphere(u0, u1));
+    const LightHit hit = environment_hit(lights.view(), Vec3f(0), uniform_sphere(u0, u1));
     const double excess = luminance(Vec3d(hit.radiance)) - mean;
     if (excess <= 0) {
       EXPECT_EQ(hit.pdf, 0.0f);
@@ -167,11 +168,11 @@ TEST(Environment, ExcessIsWhatIsSampled) {
 TEST(Environment, ConstantHasNoExcess) {
   const Lights alone = compile({}, {}, nullptr, EnvironmentSamples::kExcess);
   EXPECT_EQ(sample_light(alone.view(), Vec3f(0.0f), 0.5f, 0.5f, 0.5f).pdf, 0.0f);
-  EXPECT_EQ(environment_hit(alone.view(), Vec3f(0, 0, 1)).pdf, 0.0f);
-  EXPECT_EQ(environment_hit(alone.view(), Vec3f(0, 0, 1)).radiance, Vec3f(1.0f));
+  EXPECT_EQ(environment_hit(alone.view(), Vec3f(0), Vec3f(0, 0, 1)).pdf, 0.0f);
+  EXPECT_EQ(environment_hit(alone.view(), Vec3f(0), Vec3f(0, 0, 1)).radiance, Vec3f(1.0f));
   const Lights beside = compile({test::directional({0, 0, 1}, 1)}, {}, nullptr, EnvironmentSamples::kExcess);
   EXPECT_EQ(bin_probability(beside.view().pick, 0), 1.0f);
-  EXPECT_EQ(environment_hit(beside.view(), Vec3f(0, 0, 1)).pdf, 0.0f);
+  EXPECT_EQ(environment_hit(beside.view(), Vec3f(0), Vec3f(0, 0, 1)).pdf, 0.0f);
 }
 
 TEST(Environment, IrradianceOfThePicture) {
@@ -216,8 +217,8 @@ TEST(Environment, BlackIsNone) {
   for (const EnvironmentImage* image : {static_cast<const EnvironmentImage*>(nullptr), &black}) {
     const Lights lights = compile({}, image ? EnvironmentDescription{} : test::no_environment(), image);
     EXPECT_EQ(sample_light(lights.view(), Vec3f(0.0f), 0.5f, 0.5f, 0.5f).pdf, 0.0f);
-    EXPECT_EQ(environment_hit(lights.view(), Vec3f(0, 0, 1)).radiance, Vec3f(0.0f));
-    EXPECT_EQ(environment_hit(lights.view(), Vec3f(0, 0, 1)).pdf, 0.0f);
+    EXPECT_EQ(environment_hit(lights.view(), Vec3f(0), Vec3f(0, 0, 1)).radiance, Vec3f(0.0f));
+    EXPECT_EQ(environment_hit(lights.view(), Vec3f(0), Vec3f(0, 0, 1)).pdf, 0.0f);
   }
 }
 
@@ -233,7 +234,7 @@ TEST(Environment, EdgesAreFinite) {
       EXPECT_NEAR(s.pdf, kUniformSpherePdf, kRounding);
     }
   for (Vec3f d : {Vec3f(0, 0, 1), Vec3f(0, 0, -1), Vec3f(0, -1, 0), Vec3f(-0.0f, -1, 0), Vec3f(1, 0, 0)})
-    EXPECT_NEAR(environment_hit(lights.view(), d).pdf, kUniformSpherePdf, kRounding);
+    EXPECT_NEAR(environment_hit(lights.view(), Vec3f(0), d).pdf, kUniformSpherePdf, kRounding);
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "grid/phantom.h"
-#include "scene/compile.h"
 #include "scene/resolve.h"
+#include "scene/tracking_choice.h"
 #include "voxlume/error.h"
 
 namespace voxlume {

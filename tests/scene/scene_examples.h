@@ -65,6 +65,10 @@ inline SceneDescription full_scene() {
               Double3{0, 1, 0},          200.0, 0.5, 300.0, 3,   175.0};
   s.clip = ClipDescription{{-10, 1e30}, {-1e30, 20}, {0, 5}, true};
   s.image = {640, 480, 16, 2.5, 0.01, PixelFilter::kBox, 0.5, 1.25, ToneCurve::kSrgb, {"depth", "albedo"}};
+  s.render.integrator = Integrator::kVplDvr;
+  s.render.march_step_voxels = 1.5;
+  s.render.virtual_lights = 64;
+  s.render.virtual_light_radius = 0.1;
   s.render.seed = 18446744073709551615ull;
   s.render.frame = 7;
   s.render.max_scatter = 100;

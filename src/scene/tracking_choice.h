@@ -1,0 +1,29 @@
+#pragma once
+#include "accel/accelerator.h"
+#include "integrator/scene_view.h"
+#include "light/compile_lights.h"
+#include "tracking/estimators.h"
+#include "voxlume/scene.h"
+
+namespace voxlume {
+
+// What a scene's words about rendering ask of accelerator, trackers and light samples.
+
+/// The structure that a scene asks for. Throws Error kBadParameter for words it does not know, kUnsupported
+/// for what does not go together.
+AcceleratorChoice accelerator_choice(const SceneDescription& scene, const GridView& grid);
+
+/// Throws Error kUnsupported where the trackers or the integrator do not go together with the rest.
+void check_trackers(const SceneDescription& scene);
+
+/// The trackers that a scene asks for, which check_trackers accepts.
+TrackerChoice tracker_choice(const RenderDescription& render, const GridView& grid);
+
+/// What light samples are drawn for, by integrator and techniques.
+EnvironmentSamples environment_samples(const RenderDescription& render, LightSampling sampling);
+
+/// Whether all that tables of how light spreads depend on is the same in both: everything but the picture
+/// and, unless lights are attached to it, the camera.
+bool same_light(const SceneDescription& a, const SceneDescription& b);
+
+}  // namespace voxlume
