@@ -43,6 +43,26 @@ TEST_F(CliTest, PicturesDoNotDependOnThreads) {
   EXPECT_NE(read_image(folder_ / "a.exr").rgba, read_image(folder_ / "c.exr").rgba);
 }
 
+TEST_F(CliTest, IntegratorsGivePicturesOfTheirOwnAndScenesOfTheirs) {
+  std::vector<Image> pictures;
+  for (const std::string name : {"path", "exposure-render", "rmss", "vpl-dvr", "ar2t"}) {
+    const RunResult r =
+        render("ball.nrrd", name + ".exr", {"--integrator", name, "--save-scene", name + ".json"});
+    ASSERT_EQ(r.code, 0) << r.err;
+    const Image image = read_image(folder_ / (name + ".exr"));
+    EXPECT_GT(image.pixel(12, 10)[1], 0.01f) << name;
+    for (const Image& other : pictures) EXPECT_NE(image.rgba, other.rgba) << name;
+    pictures.push_back(image);
+    // The scene that was saved says all.
+    ASSERT_EQ(render(name + ".json", "again.exr", {"--threads", "1"}).code, 0);
+    EXPECT_EQ(read_image(folder_ / "again.exr").rgba, image.rgba) << name;
+  }
+  const RunResult r = render("ball.nrrd", "o.exr", {"--integrator", "vpl"});
+  EXPECT_EQ(r.code, 2);
+  EXPECT_THAT(r.err, HasSubstr("vpl-dvr"));
+  EXPECT_EQ(line_count(r.err), 1) << r.err;
+}
+
 TEST_F(CliTest, NoiseEndsARenderWhereItIsReached) {
   constexpr int kSeeds = 8;
   constexpr double kAsked = 0.01;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "grid/phantom.h"
+#include "scene/compile.h"
 #include "scene/resolve.h"
 #include "scene/tracking_choice.h"
 #include "voxlume/error.h"

@@ -28,7 +28,7 @@ test::Moments transmittances(TransmittanceEstimator choice, const TrackedMedium&
   test::Moments moments;
   for (int n = 0; n < samples; ++n) {
     Rng rng(91, 0, 0, static_cast<std::uint32_t>(n));
-    moments.add(estimate_transmittance(choice, tracked.medium, ray, rng, counters));
+    moments.add(estimate_transmittance(TrackerChoice{choice}, tracked.medium, ray, rng, counters));
   }
   return moments;
 }
@@ -115,15 +115,16 @@ TEST_P(Estimators, EmptyPartsAndOpaqueOnes) {
   TrackingCounters counters;
   for (const auto choice : {TransmittanceEstimator::kResidual, TransmittanceEstimator::kMarching}) {
     Rng rng(1, 0, 0, 0);
-    EXPECT_EQ(estimate_transmittance(choice, tracked.medium, {{{20, 1, 1}, {1, 0, 0}}, 0, 12}, rng, counters),
+    EXPECT_EQ(estimate_transmittance(TrackerChoice{choice}, tracked.medium, {{{20, 1, 1}, {1, 0, 0}}, 0, 12},
+                                     rng, counters),
               1.0f);
     const TrackedMedium opaque =
         medium(make_volume<std::uint8_t>({9, 9, 9}, [](auto, auto, auto) { return 1; }), {{0, 1e6}});
     for (std::uint32_t n = 0; n < 200; ++n) {
       Rng other(3, 0, 0, n);
-      ASSERT_EQ(
-          estimate_transmittance(choice, opaque.medium, {{{-0.5f, 4, 4}, {1, 0, 0}}, 0, 9}, other, counters),
-          0.0f);
+      ASSERT_EQ(estimate_transmittance(TrackerChoice{choice}, opaque.medium,
+                                       {{{-0.5f, 4, 4}, {1, 0, 0}}, 0, 9}, other, counters),
+                0.0f);
       const Collision c =
           sample_free_flight_decomposed(opaque.medium, {{{-0.5f, 4, 4}, {1, 0, 0}}, 0, 9}, other, counters);
       ASSERT_TRUE(c.real && c.t_mm < 1e-4f);
@@ -146,7 +147,7 @@ TEST_P(Estimators, EmptyIntervals) {
     for (const auto choice : {TransmittanceEstimator::kResidual, TransmittanceEstimator::kMarching}) {
       Rng rng(2, 0, 0, 0);
       const TrackRay ray{{{0, 1, 1}, {1, 0, 0}}, a, b};
-      EXPECT_EQ(estimate_transmittance(choice, tracked.medium, ray, rng, counters), 1.0f);
+      EXPECT_EQ(estimate_transmittance(TrackerChoice{choice}, tracked.medium, ray, rng, counters), 1.0f);
       EXPECT_FALSE(sample_free_flight_decomposed(tracked.medium, ray, rng, counters).real);
     }
   EXPECT_EQ(counters.steps, 0u);
@@ -190,9 +191,9 @@ TEST(EstimatorsOfHomogeneousMatter, AreExact) {
     TrackingCounters counters;
     for (std::uint32_t n = 0; n < 20000; ++n) {
       Rng rng(93, 0, 0, n);
-      ASSERT_NEAR(
-          estimate_transmittance(choice, tracked.medium, {{{-0.5f, 1, 1}, {1, 0, 0}}, 0, 10}, rng, counters),
-          std::exp(-2.0), 1e-6);
+      ASSERT_NEAR(estimate_transmittance(TrackerChoice{choice}, tracked.medium,
+                                         {{{-0.5f, 1, 1}, {1, 0, 0}}, 0, 10}, rng, counters),
+                  std::exp(-2.0), 1e-6);
     }
     EXPECT_EQ(counters.majorant_violations, 0u);
   }
