@@ -28,6 +28,21 @@ for scene in head-materials brain-regions brodmann-areas fusion merge-product me
 done
 picture self-occlusion-1 examples/head-materials.json
 picture self-occlusion-03 examples/head-materials.json --set /material/self_occlusion=0.3
+# xu2025 Fig. 13: one extinction and extinctions by channel; tools/experiments/rgb-extinction.sh measures their noise
+for extinction in single rgb; do
+  picture extinction-$extinction examples/extinction.json --set /render/extinction=$extinction
+  spp=10 picture extinction-$extinction-10 examples/extinction.json --set /render/extinction=$extinction
+done
+sheet=$(mktemp -d)  # docs/peers.md
+for method in vpl-dvr exposure-render rmss ar2t path; do
+  printf 'gallery: by %s\n' "$method" >&2
+  build/release/voxlume render $ct -o "$sheet/ct-bone $method.png" --size 200x200 --spp $spp --preset ct-bone \
+    --camera 25,10,1.5 --env data/env/sunset.exr --background env --integrator $method
+  build/release/voxlume render examples/head-materials.json -o "$sheet/head-materials $method.png" --size 200x200 \
+    --spp $spp --env data/env/sunset.exr --background env --integrator $method
+done
+python3 tools/contact_sheet.py 5 "$out/peers.png" "$sheet" || echo "peers.png needs python3 with Pillow" >&2
+rm -rf "$sheet"
 materials=$(mktemp -d)
 for material in $(build/release/voxlume materials | cut -d' ' -f1); do
   printf 'gallery: material %s\n' "$material" >&2

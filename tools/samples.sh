@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Makes data/ from Debian packages: a head CT (invesalius-examples), MR heads and label atlases (mricron-data) and CC0
-# environments (blender-data). Does nothing where the files are there; fails when a package cannot be had.
+# Makes data/ from Debian packages: a head CT (invesalius-examples), MR heads and label atlases (mricron-data), of which a
+# PET scan is simulated, and CC0 environments (blender-data). Does nothing where the files are there; fails when a package cannot be had.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -50,6 +50,15 @@ mri() {
   cp -L $from/brodmann.nii.gz data/brodmann.nii.gz.part && mv data/brodmann.nii.gz.part data/brodmann.nii.gz
 }
 
+pet() {  # a second modality of the MR brain, for want of a measured one
+  [ -f data/simulated-pet.nrrd ] && return 0
+  [ -f data/aal.nii.gz ] || return 1
+  command -v python3 >/dev/null || { say "data/simulated-pet.nrrd needs python3"; return 0; }
+  say "data/simulated-pet.nrrd"
+  python3 tools/simulated_pet.py data/aal.nii.gz data/simulated-pet.nrrd.part
+  mv data/simulated-pet.nrrd.part data/simulated-pet.nrrd
+}
+
 environments() {
   [ -f data/env/.complete ] && return 0
   local from=/usr/share/blender/datafiles/studiolights/world
@@ -64,5 +73,6 @@ mkdir -p data
 status=0
 head_ct || status=1
 mri || status=1
+pet || status=1
 environments || status=1
 exit $status

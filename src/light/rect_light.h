@@ -8,7 +8,7 @@
 
 namespace voxlume {
 
-// Uniform sampling of the solid angle of a rectangle (Urena, Fajardo and King 2013), algorithms.md section 8.
+// Uniform sampling of the solid angle of a rectangle (Urena, Fajardo and King 2013).
 // The angles of the original enter as their cosines and sines and the solid angle comes from a formula
 // without differences, because sums of four arc cosines minus 2 pi keep too few digits in float.
 
