@@ -155,6 +155,7 @@ class VolumeValues {
 struct ColumnPair {
   std::int32_t first, second;
   float share;
+  friend bool operator==(const ColumnPair&, const ColumnPair&) = default;
 };
 inline ColumnPair columns_at(const RuleView& rule, float at) noexcept {
   if (rule.along < 0) return {0, 0, 0};
