@@ -1,23 +1,26 @@
 // Bounds of the extinction by all rules, in many cells at once.
 #include <algorithm>
+#include <limits>
 
 #include "transfer/classifier.h"
+#include "transfer/opacities.h"
 
 namespace voxlume {
 namespace {
 
 /// What the opacity of the function's own points is where the data is within `data`.
-void find_opacities(const TransferFunction& own, const ValueRange* data, int count, ValueRange* opacity) {
+void find_opacity_ranges(const TransferFunction& own, const ValueRange* data, int count,
+                         ValueRange* opacity) {
   // A little wider, as the exponential need not grow with its argument to the last bit.
   constexpr float kSlack = 1e-6f;
   float least[kMostCells], most[kMostCells];
   own.extremes().find_minima(data, count, least);
   own.extremes().find_maxima(data, count, 1.0f, most);
-  const TransferView view = own.view();
-  for (int n = 0; n < count; ++n) {
-    opacity[n] = {opacity_of(view, least[n]) - kSlack, opacity_of(view, most[n]) + kSlack};
-    if (data[n].empty()) opacity[n] = {1, 0};
-  }
+  const float length_mm = own.view().reference_length_mm;
+  simd::find_opacities(least, count, length_mm, least);
+  simd::find_opacities(most, count, length_mm, most);
+  for (int n = 0; n < count; ++n)
+    opacity[n] = data[n].empty() ? ValueRange{1, 0} : ValueRange{least[n] - kSlack, most[n] + kSlack};
 }
 
 }  // namespace
@@ -44,7 +47,7 @@ void Classifier::find_upper(std::span<const CellValues> volumes, int count, floa
     return rule.volume == kOpacityVolume || rule.along == kOpacityVolume;
   };
   if (std::any_of(rule_views_.begin(), rule_views_.end(), reads_opacity)) {
-    find_opacities(own_points_.front(), volumes[0].ranges, count, opacities);
+    find_opacity_ranges(own_points_.front(), volumes[0].ranges, count, opacities);
     cells.volumes[kOpacityVolume] = volumes[0];
     cells.volumes[kOpacityVolume].ranges = opacities;
   }
@@ -55,15 +58,26 @@ void Classifier::find_upper(std::span<const CellValues> volumes, int count, floa
 }
 
 void Classifier::find_product(const RuleCells& cells, float* mu_t) const {
-  float upper[kMostRules][kMostCells];
-  int rules = 0;
-  for (const CompiledRule& rule : rules_)
-    if (rule.gives_extinction()) cells.find_bounds<Bound::kUpper>(rule, upper[rules++]);
-  for (int n = 0; n < cells.count; ++n) {
-    float of_rules[kMostRules];
-    for (int i = 0; i < rules; ++i) of_rules[i] = upper[i][n];
-    mu_t[n] = merged_mu_t(merge_, of_rules, rules, own_points_.front().view().reference_length_mm);
+  const float length_mm = own_points_.front().view().reference_length_mm;
+  float upper[kMostCells], own[kMostCells], opacity[kMostCells], least_opacity[kMostCells];
+  std::fill_n(mu_t, cells.count, std::numeric_limits<float>::infinity());
+  std::fill_n(opacity, cells.count, 1.0f);
+  std::fill_n(least_opacity, cells.count, 1.0f);
+  bool any = false;
+  for (const CompiledRule& rule : rules_) {
+    if (!rule.gives_extinction()) continue;
+    any = true;
+    cells.find_bounds<Bound::kUpper>(rule, upper);
+    simd::find_opacities(upper, cells.count, length_mm, own);
+    for (int n = 0; n < cells.count; ++n) {
+      const float factor = std::min(own[n] / kSaturated, 1.0f);
+      opacity[n] *= factor;
+      least_opacity[n] = std::min(least_opacity[n], factor);
+      mu_t[n] = std::min(mu_t[n], upper[n]);
+    }
   }
+  for (int n = 0; n < cells.count; ++n)
+    mu_t[n] = any ? mu_t_of_product(opacity[n], least_opacity[n], mu_t[n], length_mm) : 0;
 }
 
 /// From the last rule to the first: the bound of a rule and those after it, which count unless it hides them.
@@ -73,10 +87,11 @@ void Classifier::find_in_order(const RuleCells& cells, float* mu_t) const {
   for (auto rule = rules_.rbegin(); rule != rules_.rend(); ++rule) {
     if (!rule->gives_extinction()) continue;
     cells.find_bounds<Bound::kUpper>(*rule, upper);
-    bool may_hide = false;
-    for (int n = 0; n < cells.count; ++n) may_hide |= (upper[n] > 0) & (upper[n] < mu_t[n]);
+    int may_hide = 0;
+    for (int n = 0; n < cells.count; ++n)
+      may_hide |= static_cast<int>(upper[n] > 0) & static_cast<int>(upper[n] < mu_t[n]);
     std::fill_n(lower, cells.count, 0.0f);
-    if (may_hide && merge_ == Merge::kPriority) cells.find_bounds<Bound::kLower>(*rule, lower);
+    if (may_hide != 0 && merge_ == Merge::kPriority) cells.find_bounds<Bound::kLower>(*rule, lower);
     for (int n = 0; n < cells.count; ++n) mu_t[n] = lower[n] > 0 ? upper[n] : std::max(upper[n], mu_t[n]);
   }
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "transfer/rule.h"
 
@@ -67,15 +68,27 @@ void pick_slope(const Section& section, float width, const ValueRange* along, co
 template <Bound kBound>
 void pick_plateau(const Section& section, const ValueRange* along, const float* column, int count,
                   float* mu_t) {
-  for (int n = 0; n < count; ++n)
-    mu_t[n] = touches(along[n], section) ? pick<kBound>(mu_t[n], column[n]) : mu_t[n];
+  for (int n = 0; n < count; ++n) {
+    const float bound = pick<kBound>(mu_t[n], column[n]);
+    mu_t[n] = touches(along[n], section) ? bound : mu_t[n];
+  }
 }
 
 ValueRange all_of(const ValueRange* ranges, int count) {
-  ValueRange all = ranges[0];
-  for (int n = 1; n < count; ++n)
-    all = {std::min(all.lower, ranges[n].lower), std::max(all.upper, ranges[n].upper)};
-  return all;
+  // Several at a time, which vectors do at once.
+  constexpr int kLanes = 8;
+  float lower[kLanes], upper[kLanes];
+  std::fill_n(lower, kLanes, kInfinity);
+  std::fill_n(upper, kLanes, -kInfinity);
+  const auto add = [&](const ValueRange& range, int lane) {
+    lower[lane] = pick<Bound::kLower>(lower[lane], range.lower);
+    upper[lane] = pick<Bound::kUpper>(upper[lane], range.upper);
+  };
+  int n = 0;
+  for (; n + kLanes <= count; n += kLanes)
+    for (int lane = 0; lane < kLanes; ++lane) add(ranges[n + lane], lane);
+  for (; n < count; ++n) add(ranges[n], 0);
+  return {*std::min_element(lower, lower + kLanes), *std::max_element(upper, upper + kLanes)};
 }
 
 }  // namespace
@@ -102,11 +115,37 @@ void CompiledRule::bound_column(int column, const CellValues& values, int count,
   }
 }
 
+/// The bounds of columns in some cells, each found when it is first asked for.
+template <Bound kBound>
+class CompiledRule::ColumnBounds {
+ public:
+  ColumnBounds(const CompiledRule& rule, const CellValues& values, int count)
+      : rule_(rule),
+        values_(values),
+        count_(count),
+        known_(rule.columns_.size()),
+        mu_t_(new float[rule.columns_.size() * kMostCells]) {}
+
+  const float* operator[](int column) {
+    float* const mu_t = &mu_t_[static_cast<std::size_t>(column) * kMostCells];
+    if (!known_[column]) rule_.bound_column<kBound>(column, values_, count_, mu_t);
+    known_[column] = true;
+    return mu_t;
+  }
+
+ private:
+  const CompiledRule& rule_;
+  const CellValues& values_;
+  const int count_;
+  std::vector<bool> known_;
+  const std::unique_ptr<float[]> mu_t_;
+};
+
 template <Bound kBound>
 void CompiledRule::bound_along_labels(const CellValues& values, const CellValues& along, int count,
                                       float* mu_t) const {
   const RuleView rule = view();
-  float first[kMostCells], second[kMostCells];
+  ColumnBounds<kBound> columns(*this, values, count);
   for (int begin = 0, end; begin < count; begin = end) {
     end = along.end_of_set(begin, count);
     const std::span<const float> labels = along.sets->set(along.set_of_cell[begin]);
@@ -120,13 +159,9 @@ void CompiledRule::bound_along_labels(const CellValues& values, const CellValues
         if (kBound == Bound::kLower) std::fill(mu_t + begin, mu_t + end, 0.0f);
         continue;
       }
-      bound_column<kBound>(pair.first, values.from(begin), end - begin, first);
-      const bool two = pair.second != pair.first;
-      if (two) bound_column<kBound>(pair.second, values.from(begin), end - begin, second);
-      for (int n = begin; n < end; ++n) {
-        const float a = first[n - begin], b = two ? second[n - begin] : a;
-        mu_t[n] = pick<kBound>(mu_t[n], between<kBound>(a, b, pair.share));
-      }
+      const float *first = columns[pair.first], *second = columns[pair.second];
+      for (int n = begin; n < end; ++n)
+        mu_t[n] = pick<kBound>(mu_t[n], between<kBound>(first[n], second[n], pair.share));
     }
   }
 }
@@ -136,27 +171,18 @@ void CompiledRule::bound_along_ranges(const CellValues& values, const ValueRange
                                       float* mu_t) const {
   const RuleView rule = view();
   const ValueRange all = all_of(along, count);
-  float buffers[2][kMostCells], *first = buffers[0], *second = buffers[1];
-  int in_second = -1;  // the column that is in `second`
+  ColumnBounds<kBound> columns(*this, values, count);
   std::fill_n(mu_t, count, kNothing<kBound>);
   for (int number = 0; number <= rule.column_count; ++number) {
     const Section section = section_of(rule, number);
     if (section.to < all.lower || section.from > all.upper) continue;
-    if (section.first < 0) {
-      std::fill_n(first, count, 0.0f);
-    } else if (section.first == in_second) {
-      std::swap(first, second);
-    } else {
-      bound_column<kBound>(section.first, values, count, first);
-    }
-    in_second = section.second;
-    if (section.second != section.first) {
-      bound_column<kBound>(section.second, values, count, second);
+    if (section.first != section.second) {
       const float width = rule.column_at[section.second] - section.from;
-      pick_slope<kBound>(section, width, along, first, second, count, mu_t);
-    } else {
-      pick_plateau<kBound>(section, along, first, count, mu_t);
-      std::swap(first, second);
+      pick_slope<kBound>(section, width, along, columns[section.first], columns[section.second], count, mu_t);
+    } else if (section.first >= 0) {
+      pick_plateau<kBound>(section, along, columns[section.first], count, mu_t);
+    } else if (kBound == Bound::kLower) {
+      for (int n = 0; n < count; ++n) mu_t[n] = touches(along[n], section) ? 0 : mu_t[n];
     }
   }
   for (int n = 0; n < count; ++n) mu_t[n] = mu_t[n] < kInfinity ? mu_t[n] : 0;

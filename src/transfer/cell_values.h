@@ -13,10 +13,6 @@ struct CellValues {
   const std::uint32_t* set_of_cell = nullptr;
   bool complete = false;  ///< whether every point of the cells has a value
 
-  /// The cells from number n on.
-  CellValues from(int n) const {
-    return {sets ? nullptr : ranges + n, sets, set_of_cell + (sets ? n : 0), complete};
-  }
   /// The first cell past n that has another set of labels, at most `end`.
   int end_of_set(int n, int end) const {
     int next = n + 1;

@@ -45,6 +45,8 @@ class CompiledRule {
   Column compile_column(const RuleDescription& rule, std::vector<TransferPoint> points,
                         const RuleContext& context) const;
   template <Bound kBound>
+  class ColumnBounds;
+  template <Bound kBound>
   void bound_column(int column, const CellValues& values, int count, float* mu_t) const;
   template <Bound kBound>
   void bound_along_labels(const CellValues& values, const CellValues& along, int count, float* mu_t) const;

@@ -80,6 +80,11 @@ TEST(RangeExtremes, VectorsGiveTheScalarNumbers) {
         ASSERT_EQ(found[i], 1.5f * function.max_mu_t(ranges[i].lower, ranges[i].upper))
             << ranges[i].lower << " " << ranges[i].upper;
       EXPECT_EQ(found.back(), -1.0f) << "wrote beyond the end";
+      function.extremes().find_minima(ranges.data(), static_cast<std::int64_t>(ranges.size()), found.data());
+      for (std::size_t i = 0; i < ranges.size(); ++i)
+        ASSERT_EQ(found[i], function.min_mu_t(ranges[i].lower, ranges[i].upper))
+            << ranges[i].lower << " " << ranges[i].upper;
+      EXPECT_EQ(found.back(), -1.0f) << "wrote beyond the end";
     });
   }
 }
