@@ -234,7 +234,8 @@ int main(int argc, char** argv) {
       write_volume(label_volume(volume), label_file);
       measure(volume, label_file, rows);
     }
-    std::printf("%s\n", Json{{"threads", thread_count()}, {"rows", rows}}.dump(2).c_str());
+    std::printf("%s\n",
+                Json{{"volume", argv[1]}, {"threads", thread_count()}, {"rows", rows}}.dump(2).c_str());
   } catch (const Error& error) {
     std::fprintf(stderr, "voxlume_rules: %s\n", error.what());
     code = 1;
