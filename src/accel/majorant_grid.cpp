@@ -21,7 +21,7 @@ void MajorantGrid::update(const TransferFunction& transfer) {
 }
 
 void MajorantGrid::update(const RuleBounds& bounds) {
-  constexpr std::int64_t kRun = kMostCells;
+  constexpr std::int64_t kRun = kCellsAtOnce;
   const auto cells = static_cast<std::int64_t>(mu_maj_.size());
   parallel_for((cells + kRun - 1) / kRun, 1, [&](std::int64_t run) {
     const std::int64_t begin = run * kRun;

@@ -20,7 +20,7 @@ class RuleBounds {
   /// `classifier` must outlive them.
   void prepare(const Classifier& classifier) { classifier_ = &classifier; }
 
-  /// mu_maj [1/mm] of cells first .. first + count - 1, at most kMostCells, whose ranges of the main volume
+  /// mu_maj [1/mm] of cells first .. first + count - 1, at most kCellsAtOnce, whose ranges of the main volume
   /// are `data`: no mu_t in a cell is above, times `scale`.
   void find(std::int64_t first, int count, const ValueRange* data, float scale, float* mu_maj) const;
 

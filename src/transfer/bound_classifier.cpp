@@ -13,7 +13,7 @@ void find_opacity_ranges(const TransferFunction& own, const ValueRange* data, in
                          ValueRange* opacity) {
   // A little wider, as the exponential need not grow with its argument to the last bit.
   constexpr float kSlack = 1e-6f;
-  float least[kMostCells], most[kMostCells];
+  float least[kCellsAtOnce], most[kCellsAtOnce];
   own.extremes().find_minima(data, count, least);
   own.extremes().find_maxima(data, count, 1.0f, most);
   const float length_mm = own.view().reference_length_mm;
@@ -42,7 +42,7 @@ void Classifier::find_upper(std::span<const CellValues> volumes, int count, floa
   RuleCells cells;
   cells.count = count;
   std::copy(volumes.begin(), volumes.end(), cells.volumes);
-  ValueRange opacities[kMostCells];
+  ValueRange opacities[kCellsAtOnce];
   const auto reads_opacity = [](const RuleView& rule) {
     return rule.volume == kOpacityVolume || rule.along == kOpacityVolume;
   };
@@ -59,7 +59,7 @@ void Classifier::find_upper(std::span<const CellValues> volumes, int count, floa
 
 void Classifier::find_product(const RuleCells& cells, float* mu_t) const {
   const float length_mm = own_points_.front().view().reference_length_mm;
-  float upper[kMostCells], own[kMostCells], opacity[kMostCells], least_opacity[kMostCells];
+  float upper[kCellsAtOnce], own[kCellsAtOnce], opacity[kCellsAtOnce], least_opacity[kCellsAtOnce];
   std::fill_n(mu_t, cells.count, std::numeric_limits<float>::infinity());
   std::fill_n(opacity, cells.count, 1.0f);
   std::fill_n(least_opacity, cells.count, 1.0f);
@@ -83,7 +83,7 @@ void Classifier::find_product(const RuleCells& cells, float* mu_t) const {
 /// From the last rule to the first: the bound of a rule and those after it, which count unless it hides them.
 void Classifier::find_in_order(const RuleCells& cells, float* mu_t) const {
   std::fill_n(mu_t, cells.count, 0.0f);
-  float upper[kMostCells], lower[kMostCells];
+  float upper[kCellsAtOnce], lower[kCellsAtOnce];
   for (auto rule = rules_.rbegin(); rule != rules_.rend(); ++rule) {
     if (!rule->gives_extinction()) continue;
     cells.find_bounds<Bound::kUpper>(*rule, upper);

@@ -124,10 +124,10 @@ class CompiledRule::ColumnBounds {
         values_(values),
         count_(count),
         known_(rule.columns_.size()),
-        mu_t_(new float[rule.columns_.size() * kMostCells]) {}
+        mu_t_(new float[rule.columns_.size() * kCellsAtOnce]) {}
 
   const float* operator[](int column) {
-    float* const mu_t = &mu_t_[static_cast<std::size_t>(column) * kMostCells];
+    float* const mu_t = &mu_t_[static_cast<std::size_t>(column) * kCellsAtOnce];
     if (!known_[column]) rule_.bound_column<kBound>(column, values_, count_, mu_t);
     known_[column] = true;
     return mu_t;

@@ -4,7 +4,7 @@
 namespace voxlume {
 
 /// How many cells are bounded at a time.
-inline constexpr int kMostCells = 512;
+inline constexpr int kCellsAtOnce = 512;
 
 /// What a volume holds in each of some cells: a range of values, or a set of labels.
 struct CellValues {

@@ -35,7 +35,7 @@ class Classifier {
   /// it.
   ClassifierView view() const;
 
-  /// No mu_t [1/mm] is above mu_t[n] in cell n of `count`, at most kMostCells, in which volume v has
+  /// No mu_t [1/mm] is above mu_t[n] in cell n of `count`, at most kCellsAtOnce, in which volume v has
   /// volumes[v].
   void find_upper(std::span<const CellValues> volumes, int count, float* mu_t) const;
   /// No mu_t [1/mm] is above, anywhere.

@@ -30,8 +30,8 @@ class CompiledRule {
   /// Points into this, which must stay where it is.
   RuleView view() const;
 
-  /// Bounds of mu_t [1/mm] in `count` cells, at most kMostCells; the suprema and infima of 1-D rules. `along`
-  /// is not read of those.
+  /// Bounds of mu_t [1/mm] in `count` cells, at most kCellsAtOnce; the suprema and infima of 1-D rules.
+  /// `along` is not read of those.
   template <Bound kBound>
   void find_bounds(const CellValues& values, const CellValues& along, int count, float* mu_t) const;
   bool gives_extinction() const { return given_ & kGivesExtinction; }
