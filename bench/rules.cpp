@@ -1,12 +1,14 @@
 // Measures what transfer functions of several volumes cost: a look-up of the extinction, by classify_mu_t
 // over points near each other and by a small render (one thread), and the update of the majorants for every
-// kind of rule on a volume stretched to cubes. Prints markdown tables. Usage: voxlume_rules VOLUME [EDGE...]
+// kind of rule on a volume stretched to cubes of 256^3 voxels, or of other edges. Prints JSON. Usage:
+// voxlume_rules VOLUME [EDGE...]
 #include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
+#include <nlohmann/json.hpp>
 
 #include "base/parallel.h"
 #include "measure.h"
@@ -17,6 +19,7 @@
 namespace {
 
 using namespace voxlume;
+using Json = nlohmann::ordered_json;
 
 constexpr int kLabels = 40;
 
@@ -83,6 +86,7 @@ struct Case {
 };
 
 std::vector<TransferPoint> curve() { return {point(100, 0), point(300, 0.3), point(1500, 0.9)}; }
+std::vector<TransferPoint> thin() { return {point(50, 0.01), point(1500, 0.05)}; }
 std::vector<TransferPoint> ramp(double upper) { return {point(0, 0.2), point(upper, 1)}; }
 std::vector<TransferPoint> labels(const char* material) {
   std::vector<TransferPoint> out;
@@ -104,20 +108,25 @@ std::vector<Case> cases() {
   const RuleDescription steep = rule(kCoefficientCurve, "gradient", ramp(400));
   const RuleDescription smooth = rule(kCoefficientCurve, "smooth", ramp(2000));
   const RuleDescription organs = rule(kCoefficientPoints, "organs", labels(""));
-  return {{"none", "1", {}},
-          {"cctf", "1", {data}},
-          {"cpctf", "1", {rule(kCoefficientSteps, "data", curve())}},
-          {"mpctf of the opacity", "1", {rule(kMaterialSteps, "opacity", with_material({point(0.5, 0.9)}))}},
-          {"cctf x cctf", "2", {data, steep}, Merge::kProduct},
-          {"cctf along a gradient (2-D)", "2", {along(data, "gradient", ColumnForm::kCurve, {0, 100, 400})}},
-          {"cctf along labels (2-D)", "2", {along(data, "organs", ColumnForm::kPoints, {0, 4, 7})}},
-          {"cdptf", "2", {organs}},
-          {"mdptf", "2", {rule(kMaterialPoints, "organs", labels("bone"))}},
-          {"greatest of 4", "4", {data, steep, smooth, organs}, Merge::kMaximum},
-          {"cdptf, then 2-D, 2-D",
-           "4",
-           {organs, along(smooth, "gradient", ColumnForm::kCurve, {0, 100, 400}),
-            along(data, "smooth", ColumnForm::kSteps, {-2000, 0, 500})}}};
+  return {
+      {"none", "1", {}},
+      {"cctf", "1", {data}},
+      {"cpctf", "1", {rule(kCoefficientSteps, "data", curve())}},
+      {"cctf that hides little", "1", {rule(kCoefficientCurve, "data", thin())}},
+      {"mpctf of the opacity", "1", {rule(kMaterialSteps, "opacity", with_material({point(0.5, 0.9)}))}},
+      {"cctf x cctf", "2", {data, steep}, Merge::kProduct},
+      {"cctf along a gradient (2-D)", "2", {along(data, "gradient", ColumnForm::kCurve, {0, 100, 400})}},
+      {"cctf of the opacity along it (2-D)",
+       "1",
+       {along(rule(kCoefficientCurve, "opacity", ramp(1)), "opacity", ColumnForm::kCurve, {0, 0.3, 0.9})}},
+      {"cctf along labels (2-D)", "2", {along(data, "organs", ColumnForm::kPoints, {0, 4, 7})}},
+      {"cdptf", "2", {organs}},
+      {"mdptf", "2", {rule(kMaterialPoints, "organs", labels("bone"))}},
+      {"greatest of 4", "4", {data, steep, smooth, organs}, Merge::kMaximum},
+      {"cdptf, then 2-D, 2-D",
+       "4",
+       {organs, along(smooth, "gradient", ColumnForm::kCurve, {0, 100, 400}),
+        along(data, "smooth", ColumnForm::kSteps, {-2000, 0, 500})}}};
 }
 
 SceneDescription scene_of(const Case& one, const std::string& label_file) {
@@ -162,30 +171,43 @@ double lookup_ns(const Medium& medium) {
   return 1e6 * median(times) / (kWalks * kSteps);
 }
 
-void measure(const Volume& volume, const std::string& label_file) {
+/// What it takes to edit the rules there and back, in wall time and in processor time of all threads.
+struct UpdateTimes {
+  std::vector<double> wall_ms, processor_ms;
+};
+
+UpdateTimes time_updates(CompiledScene& scene, const SceneDescription& one, const SceneDescription& other) {
+  UpdateTimes out;
+  for (int round = 0; round < 10; ++round) {
+    const double begin = processor_ms();
+    scene.update(round % 2 ? one : other);
+    out.processor_ms.push_back(processor_ms() - begin);
+    out.wall_ms.push_back(scene.majorant_build_ms());
+  }
+  return out;
+}
+
+void measure(const Volume& volume, const std::string& label_file, Json& rows) {
   const VolumeStatistics statistics = compute_statistics(make_grid_view(volume));
   std::unique_ptr<CompiledScene> scene;
-  const auto resolved = [&](const SceneDescription& s) { return resolve(s, volume, statistics); };
   for (const Case& one : cases()) {
-    const SceneDescription description = scene_of(one, label_file);
-    if (!scene) scene = std::make_unique<CompiledScene>(resolved(description), volume, statistics);
-    SceneDescription other = description;
-    other.transfer.density_scale = 1.25;
-    std::vector<double> updates;
-    for (int round = 0; round < 5; ++round) {
-      scene->update(resolved(other));
-      updates.push_back(scene->majorant_build_ms());
-      scene->update(resolved(description));
-      updates.push_back(scene->majorant_build_ms());
-    }
+    SceneDescription description = scene_of(one, label_file);
+    const SceneDescription resolved = resolve(description, volume, statistics);
+    description.transfer.density_scale = 1.25;
+    const SceneDescription denser = resolve(description, volume, statistics);
+    if (!scene) scene = std::make_unique<CompiledScene>(resolved, volume, statistics);
+    scene->update(resolved);
+    const UpdateTimes updates = time_updates(*scene, resolved, denser);
     const TimedRender render = render_on_one_thread(*scene, 1);
-    std::printf("| %lld^3 | %s | %s | %.1f | %.1f | %.2f | %.2f | %.2f |\n",
-                static_cast<long long>(volume.size[0]), one.name, one.volumes,
-                lookup_ns(scene->view().medium),
-                1e6 * render.processor_ms / static_cast<double>(render.counters.tracking_steps),
-                1e-3 * static_cast<double>(render.counters.tracking_steps) / render.processor_ms,
-                *std::min_element(updates.begin(), updates.end()), median(updates));
-    std::fflush(stdout);
+    const auto steps = static_cast<double>(render.counters.tracking_steps);
+    rows.push_back({{"edge_voxels", volume.size[0]},
+                    {"rules_over_a_curve", one.name},
+                    {"volumes", one.volumes},
+                    {"lookup_ns", lookup_ns(scene->view().medium)},
+                    {"render_ns_per_step", 1e6 * render.processor_ms / steps},
+                    {"update_ms", median(updates.wall_ms)},
+                    {"update_least_ms", *std::min_element(updates.wall_ms.begin(), updates.wall_ms.end())},
+                    {"update_processor_ms", median(updates.processor_ms)}});
   }
 }
 
@@ -203,18 +225,17 @@ int main(int argc, char** argv) {
     VolumeDescription description;
     description.path = argv[1];
     const Volume head = open_volume(description);
-    std::printf(
-        "| voxels | rules over a curve | volumes | look-up, ns | render, ns a step | render, Msteps/s | "
-        "update, "
-        "least ms | median ms |\n|---|---|---|---|---|---|---|---|\n");
-    std::vector<int> edges{256, 512};
+    std::vector<int> edges{256};
     if (argc > 2) edges.clear();
     for (int i = 2; i < argc; ++i) edges.push_back(std::atoi(argv[i]));
+    Json rows;
     for (const int edge : edges) {
       const Volume volume = stretched(head, edge);
       write_volume(label_volume(volume), label_file);
-      measure(volume, label_file);
+      measure(volume, label_file, rows);
     }
+    std::printf("%s\n",
+                Json{{"volume", argv[1]}, {"threads", thread_count()}, {"rows", rows}}.dump(2).c_str());
   } catch (const Error& error) {
     std::fprintf(stderr, "voxlume_rules: %s\n", error.what());
     code = 1;

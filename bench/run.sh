@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Builds and runs the benchmarks; JSON into out/bench/, named after the time: TIME.json, and TIME-denoise.json
-# for the denoisers. [ROUNDS]
+# Builds and runs the benchmarks; JSON into out/bench/, named after the time: TIME.json, TIME-denoise.json
+# for the denoisers and TIME-rules.json for look-ups and updates under rules. [ROUNDS]
 set -euo pipefail
 cd "$(dirname "$0")/.."
-ninja -C build/release voxlume_bench voxlume_denoise_speed >&2
+ninja -C build/release voxlume_bench voxlume_denoise_speed voxlume_rules >&2
 mkdir -p out/bench
 out=out/bench/$(date +%Y%m%d-%H%M%S).json
 build/release/bench/voxlume_bench bench/scenes "${1:-5}" > "$out.part"
@@ -15,5 +15,8 @@ json.dump(data, open(sys.argv[2], "w"), indent=2)
 P
 rm -f "$out.part"
 build/release/bench/voxlume_denoise_speed "${1:-5}" > "${out%.json}-denoise.json"
-cat "$out" "${out%.json}-denoise.json"
+volume=data/mri-head.nii.gz
+[ -f $volume ] || volume=data/head-ct.nrrd
+build/release/bench/voxlume_rules $volume > "${out%.json}-rules.json"
+cat "$out" "${out%.json}-denoise.json" "${out%.json}-rules.json"
 echo "bench: $out" >&2

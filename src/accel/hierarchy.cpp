@@ -52,8 +52,8 @@ MajorantHierarchy::MajorantHierarchy(const GridView& grid, int cell_voxels, Hier
 }
 
 void MajorantHierarchy::update(const TransferFunction& transfer) {
-  const ValueRange changed = changed_values(maximum_, transfer.range_maximum());
-  maximum_ = transfer.range_maximum();
+  const ValueRange changed = changed_values(extremes_, transfer.extremes());
+  extremes_ = transfer.extremes();
   std::vector<std::int64_t> cubes, super_cubes;
   std::vector<bool> touched(static_cast<std::size_t>(volume_of(super_cubes_)));
   for (std::int64_t cube = 0; cube < volume_of(cubes_); ++cube) {
@@ -69,7 +69,7 @@ void MajorantHierarchy::update(const TransferFunction& transfer) {
 }
 
 void MajorantHierarchy::update(const RuleBounds& bounds) {
-  maximum_ = {};
+  extremes_ = {};
   bounds_ = &bounds;
   std::vector<std::int64_t> cubes(static_cast<std::size_t>(volume_of(cubes_)));
   std::vector<std::int64_t> super_cubes(static_cast<std::size_t>(volume_of(super_cubes_)));
@@ -104,8 +104,8 @@ std::int64_t MajorantHierarchy::super_cube_of(std::int64_t cube) const {
 bool MajorantHierarchy::find_cells(std::int64_t at, BlockCube& blocks) const {
   const ValueRange* ranges = &ranges_.ranges[at * kCubeCells];
   if (!bounds_) {
-    if (!(maximum_(table_[at].values) > 0)) return false;
-    maximum_.find(ranges, kCubeCells, kMajorantSafety, blocks.mu_maj.data());
+    if (!(extremes_.maximum(table_[at].values) > 0)) return false;
+    extremes_.find_maxima(ranges, kCubeCells, kMajorantSafety, blocks.mu_maj.data());
     return true;
   }
   bounds_->find(at * kCubeCells, kCubeCells, ranges, kMajorantSafety, blocks.mu_maj.data());

@@ -65,7 +65,7 @@ class MajorantHierarchy {
   Box3f domain_;
   float chord_mm_;  ///< mean length of a random line through a finest cell
   std::int32_t cubes_[3], super_cubes_[3];
-  RangeMaximum maximum_;                ///< of the last update, unless that had rules
+  RangeExtremes extremes_;              ///< of the last update, unless that had rules
   const RuleBounds* bounds_ = nullptr;  ///< during an update with rules
   std::vector<Cube> table_;
   std::vector<std::uint32_t> words_;

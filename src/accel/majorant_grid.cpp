@@ -21,12 +21,12 @@ void MajorantGrid::update(const TransferFunction& transfer) {
 }
 
 void MajorantGrid::update(const RuleBounds& bounds) {
-  constexpr std::int64_t kRun = RuleBounds::kMostCells;
+  constexpr std::int64_t kRun = kCellsAtOnce;
   const auto cells = static_cast<std::int64_t>(mu_maj_.size());
   parallel_for((cells + kRun - 1) / kRun, 1, [&](std::int64_t run) {
     const std::int64_t begin = run * kRun;
-    bounds.find(begin, std::min(kRun, cells - begin), &ranges_.ranges[begin], kMajorantSafety,
-                &mu_maj_[begin]);
+    bounds.find(begin, static_cast<int>(std::min(kRun, cells - begin)), &ranges_.ranges[begin],
+                kMajorantSafety, &mu_maj_[begin]);
   });
 }
 
@@ -55,8 +55,8 @@ void find_majorants(const TransferFunction& transfer, const ValueRangeGrid& rang
   const auto count = static_cast<std::int64_t>(mu_maj.size());
   parallel_for((count + kRun - 1) / kRun, 1, [&](std::int64_t run) {
     const std::int64_t begin = run * kRun;
-    transfer.range_maximum().find(&ranges.ranges[begin], std::min(kRun, count - begin), kMajorantSafety,
-                                  &mu_maj[begin]);
+    transfer.extremes().find_maxima(&ranges.ranges[begin], std::min(kRun, count - begin), kMajorantSafety,
+                                    &mu_maj[begin]);
   });
 }
 

@@ -18,28 +18,21 @@ class RuleBounds {
 
   /// Takes the rules for the calls of find() that follow; its volumes are those of the constructor.
   /// `classifier` must outlive them.
-  void prepare(const Classifier& classifier);
+  void prepare(const Classifier& classifier) { classifier_ = &classifier; }
 
-  /// mu_maj [1/mm] of cells first .. first + count - 1, at most kMostCells, whose ranges of the main volume
+  /// mu_maj [1/mm] of cells first .. first + count - 1, at most kCellsAtOnce, whose ranges of the main volume
   /// are `data`: no mu_t in a cell is above, times `scale`.
-  void find(std::int64_t first, std::int64_t count, const ValueRange* data, float scale, float* mu_maj) const;
-  static constexpr std::int64_t kMostCells = 512;
+  void find(std::int64_t first, int count, const ValueRange* data, float scale, float* mu_maj) const;
 
  private:
   struct Cells {
-    bool by_labels = false, complete = false;
-    std::vector<ValueRange> ranges;
-    LabelSets sets;
+    bool complete = false;
+    std::vector<ValueRange> ranges;  ///< of an interpolated volume
+    LabelSets sets;                  ///< of labels
   };
-  void find_rule(int rule, std::int64_t first, std::int64_t count, const ValueRange* data,
-                 float* upper) const;
-  VolumeRange range_of(int volume, std::int64_t cell, const ValueRange* data) const;
 
   std::vector<Cells> volumes_;
   const Classifier* classifier_ = nullptr;
-  std::vector<RuleView> rules_;
-  /// By rule: the bound of every set of labels, where that decides.
-  std::vector<std::vector<float>> upper_of_set_;
 };
 
 }  // namespace voxlume

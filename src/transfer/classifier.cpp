@@ -52,36 +52,6 @@ ClassifierView Classifier::view() const {
   return view;
 }
 
-VolumeRange Classifier::range_of(int volume, const VolumeRange (&volumes)[kMostVolumes]) const {
-  if (volume < 0) return {};
-  if (volume != kOpacityVolume) return volumes[volume];
-  const VolumeRange& data = volumes[0];
-  if (data.range.empty()) return {};
-  const TransferFunction& own = own_points_.front();
-  const TransferView view = own.view();
-  // A little wider, as the exponential need not grow with its argument to the last bit.
-  constexpr float kSlack = 1e-6f;
-  VolumeRange out;
-  out.range = {opacity_of(view, own.min_mu_t(data.range.lower, data.range.upper)) - kSlack,
-               opacity_of(view, own.max_mu_t(data.range.lower, data.range.upper)) + kSlack};
-  out.complete = data.complete;
-  return out;
-}
-
-float Classifier::upper_mu_t(const VolumeRange (&volumes)[kMostVolumes]) const {
-  if (!has_rules()) return 0;
-  const auto values = [&](int i) { return range_of(rule_views_[i].volume, volumes); };
-  const auto along = [&](int i) { return range_of(rule_views_[i].along, volumes); };
-  return merged_upper_mu_t([&](int i) { return rules_[i].upper_mu_t(values(i), along(i)); },
-                           [&](int i) { return rules_[i].lower_mu_t(values(i), along(i)) > 0; });
-}
-
-float Classifier::upper_mu_t() const {
-  VolumeRange all[kMostVolumes];
-  for (std::size_t v = 0; v < volumes_.size(); ++v) all[v].range = volumes_[v].values;
-  return upper_mu_t(all);
-}
-
 bool Classifier::emits() const {
   return std::any_of(rules_.begin(), rules_.end(), [](const CompiledRule& rule) { return rule.emits(); });
 }

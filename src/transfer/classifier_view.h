@@ -155,6 +155,7 @@ class VolumeValues {
 struct ColumnPair {
   std::int32_t first, second;
   float share;
+  friend bool operator==(const ColumnPair&, const ColumnPair&) = default;
 };
 inline ColumnPair columns_at(const RuleView& rule, float at) noexcept {
   if (rule.along < 0) return {0, 0, 0};
@@ -185,6 +186,18 @@ inline float rule_mu_t(const RuleView& rule, float value, float at) noexcept {
   return first + pair.share * (classify_mu_t(rule.columns[pair.second].optics, value) - first);
 }
 
+/// Opacity 1 is an extinction of -ln(1 - 0.9999) over the reference length; such a factor changes nothing.
+inline constexpr float kSaturated = 0.9999f;
+
+/// The extinction from the product of several factors opacity / kSaturated, of which, and of whose
+/// extinctions, these are the least.
+inline float mu_t_of_product(float product, float least_factor, float least_mu_t,
+                             float reference_length_mm) noexcept {
+  if (!(least_mu_t > 0)) return 0;
+  if (product == least_factor) return least_mu_t;
+  return std::min(-std::log1p(-kSaturated * product) / reference_length_mm, least_mu_t);
+}
+
 /// The extinction of several rules that give one, in their order. Each of its arguments, grown, never lowers
 /// the result of product and maximum.
 inline float merged_mu_t(Merge merge, const float* mu_t, int count, float reference_length_mm) noexcept {
@@ -198,8 +211,6 @@ inline float merged_mu_t(Merge merge, const float* mu_t, int count, float refere
     for (int i = 0; i < count; ++i) most = std::max(most, mu_t[i]);
     return most;
   }
-  // Opacity 1 is an extinction of -ln(1 - 0.9999) over the reference length; such a factor changes nothing.
-  constexpr float kSaturated = 0.9999f;
   float opacity = 1, least_opacity = 1, least = std::numeric_limits<float>::infinity();
   for (int i = 0; i < count; ++i) {
     const float own = std::min(one_minus_exp(mu_t[i] * reference_length_mm) / kSaturated, 1.0f);
@@ -207,9 +218,7 @@ inline float merged_mu_t(Merge merge, const float* mu_t, int count, float refere
     least_opacity = std::min(least_opacity, own);
     least = std::min(least, mu_t[i]);
   }
-  if (count == 0 || !(least > 0)) return 0;
-  if (opacity == least_opacity) return least;
-  return std::min(-std::log1p(-kSaturated * opacity) / reference_length_mm, least);
+  return count == 0 ? 0 : mu_t_of_product(opacity, least_opacity, least, reference_length_mm);
 }
 
 /// Extinction [1/mm] at p_index of the main grid, where its data is `data`.

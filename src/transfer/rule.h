@@ -2,20 +2,14 @@
 #include <span>
 #include <vector>
 
-#include "grid/value_range.h"
+#include "transfer/cell_values.h"
 #include "transfer/classifier_view.h"
 #include "transfer/transfer_function.h"
 
 namespace voxlume {
 
-/// What a volume's values can be in a cell: the labels of a volume that is looked up by nearest voxel, else a
-/// range.
-struct VolumeRange {
-  ValueRange range{1, 0};  ///< empty: no value
-  std::span<const float> labels;
-  bool by_labels = false;
-  bool complete = false;  ///< whether every point of the cell has a value
-};
+/// Whether no look-up is above, or none below.
+enum class Bound { kUpper, kLower };
 
 /// What rules are compiled from besides their own description.
 struct RuleContext {
@@ -36,13 +30,10 @@ class CompiledRule {
   /// Points into this, which must stay where it is.
   RuleView view() const;
 
-  /// No look-up of mu_t [1/mm] is above, where the volumes' values are within these; the supremum for 1-D
-  /// rules.
-  float upper_mu_t(const VolumeRange& values, const VolumeRange& along) const;
-  /// No look-up of mu_t [1/mm] is below.
-  float lower_mu_t(const VolumeRange& values, const VolumeRange& along) const;
-  /// Of the first column.
-  const RangeMaximum& range_maximum() const { return columns_.front().optics.range_maximum(); }
+  /// Bounds of mu_t [1/mm] in `count` cells, at most kCellsAtOnce; the suprema and infima of 1-D rules.
+  /// `along` is not read of those.
+  template <Bound kBound>
+  void find_bounds(const CellValues& values, const CellValues& along, int count, float* mu_t) const;
   bool gives_extinction() const { return given_ & kGivesExtinction; }
   bool emits() const;
 
@@ -53,8 +44,14 @@ class CompiledRule {
   };
   Column compile_column(const RuleDescription& rule, std::vector<TransferPoint> points,
                         const RuleContext& context) const;
-  float column_upper(const Column& column, const VolumeRange& values) const;
-  float column_lower(const Column& column, const VolumeRange& values) const;
+  template <Bound kBound>
+  class ColumnBounds;
+  template <Bound kBound>
+  void bound_column(int column, const CellValues& values, int count, float* mu_t) const;
+  template <Bound kBound>
+  void bound_along_labels(const CellValues& values, const CellValues& along, int count, float* mu_t) const;
+  template <Bound kBound>
+  void bound_along_ranges(const CellValues& values, const ValueRange* along, int count, float* mu_t) const;
 
   int volume_, along_;
   ColumnForm column_form_;

@@ -93,10 +93,6 @@ Curve<double> extinction_curve(const TransferDescription& d) {
   return mu_t;
 }
 
-float piece_value(const TransferPiece& piece, float value) {
-  return std::max(0.0f, piece.mu_t + piece.mu_t_slope * (value - piece.anchor));
-}
-
 }  // namespace
 
 double mu_t_from_opacity(double opacity, double reference_length_mm) {
@@ -148,23 +144,7 @@ TransferFunction::TransferFunction(const TransferDescription& d) {
 
   fill_buckets();
 
-  maximum_ = RangeMaximum(pieces_);
-  make_minima();
-}
-
-void TransferFunction::make_minima() {
-  std::vector<float> level;
-  for (std::size_t i = 0; i < pieces_.size(); ++i) {
-    const float end = i + 1 < pieces_.size() ? pieces_[i + 1].start : pieces_[i].anchor;
-    level.push_back(std::min(piece_value(pieces_[i], pieces_[i].anchor), piece_value(pieces_[i], end)));
-  }
-  for (std::size_t step = 1; !level.empty(); step *= 2) {
-    range_min_.push_back(level);
-    if (level.size() <= step) break;
-    std::vector<float> next;
-    for (std::size_t i = 0; i + step < level.size(); ++i) next.push_back(std::min(level[i], level[i + step]));
-    level = std::move(next);
-  }
+  extremes_ = RangeExtremes(pieces_);
 }
 
 void TransferFunction::fill_buckets() {
@@ -198,27 +178,9 @@ TransferView TransferFunction::view() const {
   return view;
 }
 
-float TransferFunction::max_mu_t(float lower, float upper) const { return maximum_({lower, upper}); }
+float TransferFunction::max_mu_t(float lower, float upper) const { return extremes_.maximum({lower, upper}); }
 
-float TransferFunction::min_mu_t(float lower, float upper) const {
-  if (!(lower <= upper && std::isfinite(lower) && std::isfinite(upper))) return 0;
-  const TransferView tf = view();
-  const std::ptrdiff_t first = &find_piece(tf, lower) - tf.pieces;
-  const std::ptrdiff_t last = &find_piece(tf, upper) - tf.pieces;
-  float minimum = std::min(piece_value(pieces_[first], lower), piece_value(pieces_[last], upper));
-  if (first == last) return minimum;
-  // The end of the first piece and the start of the last are inside the range, as are all between.
-  minimum = std::min({minimum, piece_value(pieces_[first], pieces_[first + 1].start),
-                      piece_value(pieces_[last], pieces_[last].start)});
-  const std::ptrdiff_t count = last - first - 1;
-  if (count > 0) {
-    int level = 0;
-    while ((std::ptrdiff_t{2} << level) <= count) ++level;
-    minimum = std::min(
-        {minimum, range_min_[level][first + 1], range_min_[level][last - (std::ptrdiff_t{1} << level)]});
-  }
-  return minimum;
-}
+float TransferFunction::min_mu_t(float lower, float upper) const { return extremes_.minimum({lower, upper}); }
 
 float TransferFunction::max_mu_t() const {
   return max_mu_t(-std::numeric_limits<float>::max(), std::numeric_limits<float>::max());

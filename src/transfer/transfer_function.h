@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "transfer/range_maximum.h"
+#include "transfer/range_extremes.h"
 #include "transfer/transfer_view.h"
 #include "voxlume/scene.h"
 
@@ -23,8 +23,7 @@ class TransferFunction {
   float max_mu_t(float lower, float upper) const;
   /// The supremum over all values.
   float max_mu_t() const;
-  /// The suprema's tables.
-  const RangeMaximum& range_maximum() const { return maximum_; }
+  const RangeExtremes& extremes() const { return extremes_; }
   /// The infimum of mu_t over the closed range of data values [lower, upper], exact, in O(log n): no look-up
   /// in it is below, to the last bit. 0 where the range is empty or not finite.
   float min_mu_t(float lower, float upper) const;
@@ -39,10 +38,7 @@ class TransferFunction {
   void fill_buckets();
   float buckets_per_unit_ = 0;
   float reference_length_mm_ = 1;
-  RangeMaximum maximum_;
-  /// [level][i]: the infimum of mu_t over pieces i .. i + 2^level - 1.
-  std::vector<std::vector<float>> range_min_;
-  void make_minima();
+  RangeExtremes extremes_;
 };
 
 /// Opacity per reference length to extinction [1/mm] (design convention; o is clamped to [0, 0.9999]).

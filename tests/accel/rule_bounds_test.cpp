@@ -220,6 +220,69 @@ TEST(RuleBounds, HoldForEveryKindAndMerge) {
   }
 }
 
+/// The opacity has plateaus at breakpoints of the rules, steps at one value, and is opaque somewhere.
+TEST(RuleBounds, HoldForRulesOfTheOpacity) {
+  using enum RuleKind;
+  const RuleVolumeSet volumes(mixed_volume<std::int16_t>({40, 33, 28}, -1000, 1500));
+  const std::vector<TransferPoint> levels{opacity_point(0.1, 0.3), opacity_point(0.5, 0.9),
+                                          opacity_point(0.5, 0.2), opacity_point(0.9999, 0.6)};
+  const std::vector<TransferPoint> steps{opacity_point(0, 0.1), opacity_point(0.5, 0.8),
+                                         opacity_point(0.9999, 0.3)};
+  const std::vector<RuleColumn> columns{{0, levels}, {0.5, {opacity_point(0.5, 0)}}, {0.9999, levels}};
+  std::vector<RuleDescription> rules{rule_of(kCoefficientCurve, "opacity", levels),
+                                     rule_of(kCoefficientSteps, "opacity", steps)};
+  for (const ColumnForm form : {ColumnForm::kCurve, ColumnForm::kSteps})
+    for (const char* volume : {"opacity", "data"})
+      rules.push_back(rule_of(kCoefficientCurve, volume, "opacity", form, columns));
+  TransferDescription transfer = test::opacity_function(
+      {{-800, 0}, {-200, 0.5}, {100, 0.5}, {100, 0.1}, {400, 1}, {700, 1}, {900, 0.2}, {900, 0.7}}, 0.7);
+  for (const int edge : {1, 3}) {
+    Structures structures(volumes, edge);
+    for (std::size_t n = 0; n < 3 * rules.size(); ++n) {
+      transfer.rules = {rules[n / 3]};
+      transfer.merge = static_cast<Merge>(n % 3);
+      const Classifier classifier(transfer, volumes.all(), {});
+      structures.update(classifier);
+      EXPECT_GT(expect_bounds(volumes, classifier, structures, 8000, 300 + n), 500);
+      if (HasFailure()) FAIL() << "rule " << n / 3 << ", merge " << n % 3 << ", cells of " << edge;
+    }
+  }
+}
+
+TEST(RuleBounds, OfARuleOfTheOpacityAreThoseOfItsRange) {
+  // The opacity is 0.2 and then 0.8; a step at 0.5 lies between.
+  const RuleVolumeSet volumes(
+      make_volume<std::int16_t>({32, 16, 16}, [](auto i, auto, auto) { return i < 16 ? 100 : 300; }));
+  TransferDescription transfer = test::opacity_function({{100, 0.2}, {300, 0.8}}, 1);
+  transfer.merge = Merge::kMaximum;
+  transfer.rules = {
+      rule_of(RuleKind::kCoefficientSteps, "opacity", {opacity_point(0.5, 0.95), opacity_point(0.9, 0.99)})};
+  Structures s(volumes, 2);
+  s.update(Classifier(transfer, volumes.all(), {}));
+  test::each_cell(s.hierarchy.view(), [&](auto i, auto j, auto k) {
+    const double opacity = i < 7 ? 0.2 : 0.95;
+    ASSERT_NEAR(s.finest(i, j, k) / (mu_t_from_opacity(opacity, 1) * kMajorantSafety), 1, 1e-5) << i;
+  });
+}
+
+/// More columns than a run of cells is near, and more labels than columns.
+TEST(RuleBounds, HoldForManyColumnsAlongLabels) {
+  RuleVolumeSet volumes(mixed_volume<std::int16_t>(kSize, -1000, 1500));
+  volumes.add("atlas", label_volume<std::uint16_t>(kSize, 300, 0, 33), Lookup::kNearest);
+  Rng rng(34, 0, 0, 0);
+  std::vector<RuleColumn> columns;
+  for (int at = 0; at < 300; at += 1 + at % 3)
+    columns.push_back({static_cast<double>(at), {opacity_point(-500, 0), opacity_point(1000, rng.next())}});
+  TransferDescription transfer = test::opacity_function({{-500, 0}, {1500, 0.4}}, 0.7);
+  Structures structures(volumes, 2);
+  for (const ColumnForm form : {ColumnForm::kCurve, ColumnForm::kSteps, ColumnForm::kPoints}) {
+    transfer.rules = {rule_of(RuleKind::kCoefficientCurve, "data", "atlas", form, columns)};
+    const Classifier classifier(transfer, volumes.all(), {});
+    structures.update(classifier);
+    EXPECT_GT(expect_bounds(volumes, classifier, structures, 20000, 400), 5000);
+  }
+}
+
 TEST(RuleBounds, OfARuleOfTheDataAreThoseOfThePoints) {
   Rng rng(23, 0, 0, 0);
   for (const int edge : {1, 2, 5}) {

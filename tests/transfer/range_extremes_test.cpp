@@ -1,4 +1,4 @@
-#include "transfer/range_maximum.h"
+#include "transfer/range_extremes.h"
 
 #include <gtest/gtest.h>
 
@@ -66,7 +66,7 @@ std::vector<ValueRange> ranges_over(const TransferDescription& function, std::si
   return out;
 }
 
-TEST(RangeMaximum, VectorsGiveTheScalarNumbers) {
+TEST(RangeExtremes, VectorsGiveTheScalarNumbers) {
   Rng rng(21, 0, 0, 0);
   for (const TransferDescription& description : functions(rng)) {
     const TransferFunction function(description);
@@ -74,24 +74,29 @@ TEST(RangeMaximum, VectorsGiveTheScalarNumbers) {
     const std::vector<ValueRange> ranges = ranges_over(description, 1003, rng);
     for_every_target([&] {
       std::vector<float> found(ranges.size() + 1, -1.0f);
-      function.range_maximum().find(ranges.data(), static_cast<std::int64_t>(ranges.size()), 1.5f,
-                                    found.data());
+      function.extremes().find_maxima(ranges.data(), static_cast<std::int64_t>(ranges.size()), 1.5f,
+                                      found.data());
       for (std::size_t i = 0; i < ranges.size(); ++i)
         ASSERT_EQ(found[i], 1.5f * function.max_mu_t(ranges[i].lower, ranges[i].upper))
+            << ranges[i].lower << " " << ranges[i].upper;
+      EXPECT_EQ(found.back(), -1.0f) << "wrote beyond the end";
+      function.extremes().find_minima(ranges.data(), static_cast<std::int64_t>(ranges.size()), found.data());
+      for (std::size_t i = 0; i < ranges.size(); ++i)
+        ASSERT_EQ(found[i], function.min_mu_t(ranges[i].lower, ranges[i].upper))
             << ranges[i].lower << " " << ranges[i].upper;
       EXPECT_EQ(found.back(), -1.0f) << "wrote beyond the end";
     });
   }
 }
 
-TEST(RangeMaximum, FewRangesAreFoundToo) {
+TEST(RangeExtremes, FewRangesAreFoundToo) {
   const TransferFunction function(mu_t_function({{0, 0}, {10, 1}}));
   for_every_target([&] {
     for (int count = 0; count < 40; ++count) {
       std::vector<ValueRange> ranges(static_cast<std::size_t>(count));
       for (int i = 0; i < count; ++i) ranges[static_cast<std::size_t>(i)] = {0, static_cast<float>(i % 10)};
       std::vector<float> found(static_cast<std::size_t>(count) + 1, -1.0f);
-      function.range_maximum().find(ranges.data(), count, 1.0f, found.data());
+      function.extremes().find_maxima(ranges.data(), count, 1.0f, found.data());
       for (int i = 0; i < count; ++i)
         ASSERT_FLOAT_EQ(found[static_cast<std::size_t>(i)], 0.1f * static_cast<float>(i % 10));
       ASSERT_EQ(found.back(), -1.0f);
@@ -99,7 +104,7 @@ TEST(RangeMaximum, FewRangesAreFoundToo) {
   });
 }
 
-TEST(RangeMaximum, MorePiecesThanABucketCanName) {
+TEST(RangeExtremes, MorePiecesThanABucketCanName) {
   std::vector<TransferPiece> pieces(70000);
   Rng rng(24, 0, 0, 0);
   for (std::size_t i = 0; i < pieces.size(); ++i) {
@@ -107,7 +112,7 @@ TEST(RangeMaximum, MorePiecesThanABucketCanName) {
     pieces[i] = {
         i == 0 ? -kInfinity : start, start, i % 100 == 0 ? 100 * rng.next() : rng.next(), 0, {}, {}, {}, {}};
   }
-  const RangeMaximum maximum(pieces);
+  const RangeExtremes extremes(pieces);
   std::vector<ValueRange> ranges;
   for (int n = 0; n < 64; ++n) {
     const float lower = 60000 + 10000 * rng.next();
@@ -115,14 +120,14 @@ TEST(RangeMaximum, MorePiecesThanABucketCanName) {
   }
   for_every_target([&] {
     std::vector<float> found(ranges.size());
-    maximum.find(ranges.data(), static_cast<std::int64_t>(ranges.size()), 1.0f, found.data());
+    extremes.find_maxima(ranges.data(), static_cast<std::int64_t>(ranges.size()), 1.0f, found.data());
     for (std::size_t n = 0; n < ranges.size(); ++n) {
       float greatest = 0;
       for (auto i = static_cast<std::size_t>(ranges[n].lower);
            i < pieces.size() && pieces[i].start <= ranges[n].upper; ++i)
         greatest = std::max(greatest, pieces[i].mu_t);
       ASSERT_EQ(found[n], greatest);
-      ASSERT_EQ(maximum(ranges[n]), greatest);
+      ASSERT_EQ(extremes.maximum(ranges[n]), greatest);
     }
   });
 }
@@ -167,7 +172,7 @@ TEST(ChangedValues, OutsideThemEverySupremumStaysTheSame) {
     const TransferDescription before = mu_t_function(test::random_curve(-1000, 3000, 20.0, 1 + f % 30, rng));
     const TransferDescription after = edited(before, rng);
     const TransferFunction a(before), b(after);
-    const ValueRange changed = changed_values(a.range_maximum(), b.range_maximum());
+    const ValueRange changed = changed_values(a.extremes(), b.extremes());
     narrow += changed.upper - changed.lower < 3000;
     for (const ValueRange& range : ranges_over(before, 300, rng)) {
       if (!(range.upper < changed.lower || range.lower > changed.upper)) continue;
@@ -184,13 +189,13 @@ TEST(ChangedValues, AreNoneWhereNothingOrOnlyColorChanges) {
   TransferDescription colored = function;
   for (TransferPoint& point : colored.points) point.color = Color{{1, 0, 0}};
   const TransferFunction a(function), b(function), c(colored);
-  EXPECT_TRUE(changed_values(a.range_maximum(), b.range_maximum()).empty());
-  EXPECT_TRUE(changed_values(a.range_maximum(), c.range_maximum()).empty());
+  EXPECT_TRUE(changed_values(a.extremes(), b.extremes()).empty());
+  EXPECT_TRUE(changed_values(a.extremes(), c.extremes()).empty());
 }
 
 TEST(ChangedValues, AreAllBeforeTheFirstFunction) {
   const TransferFunction function(mu_t_function({{0, 1}}));
-  const ValueRange changed = changed_values(RangeMaximum(), function.range_maximum());
+  const ValueRange changed = changed_values(RangeExtremes(), function.extremes());
   EXPECT_EQ(changed.lower, -kInfinity);
   EXPECT_EQ(changed.upper, kInfinity);
 }
@@ -198,7 +203,7 @@ TEST(ChangedValues, AreAllBeforeTheFirstFunction) {
 TEST(ChangedValues, AreThoseAroundAMovedPoint) {
   const TransferFunction a(mu_t_function({{0, 0}, {100, 0}, {200, 1}, {300, 0}, {400, 2}}));
   const TransferFunction b(mu_t_function({{0, 0}, {100, 0}, {210, 1}, {300, 0}, {400, 2}}));
-  const ValueRange changed = changed_values(a.range_maximum(), b.range_maximum());
+  const ValueRange changed = changed_values(a.extremes(), b.extremes());
   EXPECT_EQ(changed.lower, 100);
   EXPECT_EQ(changed.upper, 300);
 }

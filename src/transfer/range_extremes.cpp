@@ -1,4 +1,4 @@
-#include "transfer/range_maximum.h"
+#include "transfer/range_extremes.h"
 
 #include <algorithm>
 #include <bit>
@@ -14,46 +14,52 @@ constexpr std::int32_t kLastTold = 0xffff;
 /// Of a bucket's distance from the first, by which rounding can move its ends.
 constexpr double kBucketSlack = 1e-6;
 
-float value_at(const MaximumPiece& piece, float value) noexcept {
+float value_at(const ExtremePiece& piece, float value) noexcept {
   const float mu_t = piece.mu_t + piece.mu_t_slope * (value - piece.anchor);
   return mu_t > 0 ? mu_t : 0;
 }
 
-bool same_line(const MaximumPiece& a, const MaximumPiece& b) noexcept {
+constexpr auto greater = [](float a, float b) { return a < b ? b : a; };
+constexpr auto lesser = [](float a, float b) { return b < a ? b : a; };
+
+bool same_line(const ExtremePiece& a, const ExtremePiece& b) noexcept {
   return a.anchor == b.anchor && a.mu_t == b.mu_t && a.mu_t_slope == b.mu_t_slope;
 }
 
-float end_or_infinity(const MaximumPiece& piece) noexcept {
+float end_or_infinity(const ExtremePiece& piece) noexcept {
   return std::isnan(piece.end) ? kInfinity : piece.end;
 }
 
 }  // namespace
 
-RangeMaximum::RangeMaximum(const std::vector<TransferPiece>& pieces) {
+RangeExtremes::RangeExtremes(const std::vector<TransferPiece>& pieces) {
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const TransferPiece& p = pieces[i];
     const float end = i + 1 < pieces.size() ? pieces[i + 1].start : std::numeric_limits<float>::quiet_NaN();
     pieces_.push_back({end, p.anchor, p.mu_t, p.mu_t_slope});
   }
-  make_knot_maxima();
+  knot_max_ = knot_extremes(greater);
+  knot_min_ = knot_extremes(lesser);
   make_buckets();
 }
 
-void RangeMaximum::make_knot_maxima() {
+template <class Pick>
+std::vector<float> RangeExtremes::knot_extremes(Pick pick) const {
   const std::size_t n = pieces_.size();
-  knot_max_.assign(n, 0.0f);
+  std::vector<float> out(n);
   for (std::size_t p = 1; p < n; ++p) {
     const float at = pieces_[p - 1].end;
-    knot_max_[p] = std::max(value_at(pieces_[p - 1], at), value_at(pieces_[p], at));
+    out[p] = pick(value_at(pieces_[p - 1], at), value_at(pieces_[p], at));
   }
   for (std::size_t step = 1; 2 * step < n; step *= 2) {
-    const std::size_t row = knot_max_.size() - n;
+    const std::size_t row = out.size() - n;
     for (std::size_t p = 0; p < n; ++p)
-      knot_max_.push_back(std::max(knot_max_[row + p], knot_max_[row + std::min(p + step, n - 1)]));
+      out.push_back(pick(out[row + p], out[row + std::min(p + step, n - 1)]));
   }
+  return out;
 }
 
-void RangeMaximum::make_buckets() {
+void RangeExtremes::make_buckets() {
   bucket_origin_ = pieces_[0].anchor;
   const double width = double{pieces_.back().anchor} - double{bucket_origin_};
   buckets_per_unit_ = static_cast<float>(kBuckets / width);
@@ -80,42 +86,51 @@ void RangeMaximum::make_buckets() {
   }
 }
 
-bool RangeMaximum::visible(double lower, double upper) const noexcept {
-  return (*this)({std::nextafter(static_cast<float>(lower), -kInfinity),
+bool RangeExtremes::visible(double lower, double upper) const noexcept {
+  return maximum({std::nextafter(static_cast<float>(lower), -kInfinity),
                   std::nextafter(static_cast<float>(upper), kInfinity)}) > 0;
 }
 
-float RangeMaximum::piece_start(std::int32_t piece) const noexcept {
+float RangeExtremes::piece_start(std::int32_t piece) const noexcept {
   return piece > 0 ? pieces_[piece - 1].end : -kInfinity;
 }
 
-float RangeMaximum::operator()(ValueRange range) const noexcept {
+template <class Pick>
+float RangeExtremes::extreme(ValueRange range, const std::vector<float>& knots, Pick pick) const noexcept {
   if (!(range.lower <= range.upper)) return 0;
   const auto piece_of = [&](float value) {
-    const auto past = [](float v, const MaximumPiece& piece) { return v < piece.end; };
+    const auto past = [](float v, const ExtremePiece& piece) { return v < piece.end; };
     return std::upper_bound(pieces_.begin(), pieces_.end() - 1, value, past) - pieces_.begin();
   };
   const std::ptrdiff_t first = piece_of(range.lower), last = piece_of(range.upper);
-  const float ends = std::max(value_at(pieces_[first], range.lower), value_at(pieces_[last], range.upper));
+  const float ends = pick(value_at(pieces_[first], range.lower), value_at(pieces_[last], range.upper));
   if (first == last) return ends;
   const int level = std::bit_width(static_cast<std::size_t>(last - first)) - 1;
-  const float* row = knot_max_.data() + static_cast<std::size_t>(level) * pieces_.size();
-  return std::max({ends, row[first + 1], row[last + 1 - (std::ptrdiff_t{1} << level)]});
+  const float* row = knots.data() + static_cast<std::size_t>(level) * pieces_.size();
+  return pick(ends, pick(row[first + 1], row[last + 1 - (std::ptrdiff_t{1} << level)]));
 }
 
-void RangeMaximum::find(const ValueRange* ranges, std::int64_t count, float scale,
-                        float* mu_maj) const noexcept {
+float RangeExtremes::maximum(ValueRange range) const noexcept { return extreme(range, knot_max_, greater); }
+
+float RangeExtremes::minimum(ValueRange range) const noexcept { return extreme(range, knot_min_, lesser); }
+
+void RangeExtremes::find_maxima(const ValueRange* ranges, std::int64_t count, float scale,
+                                float* mu_maj) const noexcept {
   simd::find_range_maxima(view(), ranges, count, scale, mu_maj);
 }
 
-RangeMaximumView RangeMaximum::view() const noexcept {
-  return {pieces_.data(),  static_cast<std::int32_t>(pieces_.size()),
-          buckets_.data(), static_cast<std::int32_t>(buckets_.size()),
-          bucket_origin_,  buckets_per_unit_,
-          knot_max_.data()};
+void RangeExtremes::find_minima(const ValueRange* ranges, std::int64_t count, float* mu_min) const noexcept {
+  simd::find_range_minima(view(), ranges, count, mu_min);
 }
 
-ValueRange changed_values(const RangeMaximum& before, const RangeMaximum& after) noexcept {
+RangeExtremesView RangeExtremes::view() const noexcept {
+  return {pieces_.data(),   static_cast<std::int32_t>(pieces_.size()),
+          buckets_.data(),  static_cast<std::int32_t>(buckets_.size()),
+          bucket_origin_,   buckets_per_unit_,
+          knot_max_.data(), knot_min_.data()};
+}
+
+ValueRange changed_values(const RangeExtremes& before, const RangeExtremes& after) noexcept {
   const auto &a = before.pieces_, &b = after.pieces_;
   const auto n_a = static_cast<std::int32_t>(a.size()), n_b = static_cast<std::int32_t>(b.size());
   const std::int32_t shorter = std::min(n_a, n_b);

@@ -1,10 +1,10 @@
 #include "base/vector_targets.h"
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "transfer/range_maximum_simd.cpp"
+#define HWY_TARGET_INCLUDE "transfer/range_extremes_simd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "transfer/range_maximum.h"
+#include "transfer/range_extremes.h"
 #include "transfer/vector_records-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -17,13 +17,14 @@ using Ints = hn::ScalableTag<std::int32_t>;
 using F = hn::Vec<Floats>;
 using I = hn::Vec<Ints>;
 
-/// RangeMaximum::operator() for a vector of ranges, with the same arithmetic.
-class VectorMaximum {
+/// RangeExtremes::maximum, or ::minimum, for a vector of ranges, with the same arithmetic.
+template <bool kMinimum>
+class VectorExtreme {
  public:
-  explicit VectorMaximum(const RangeMaximumView& f)
+  explicit VectorExtreme(const RangeExtremesView& f)
       : pieces_(reinterpret_cast<const float*>(f.pieces)),
         buckets_(reinterpret_cast<const std::int32_t*>(f.buckets)),
-        knot_max_(f.knot_max),
+        knots_(kMinimum ? f.knot_min : f.knot_max),
         origin_(hn::Set(d_, f.bucket_origin)),
         per_unit_(hn::Set(d_, f.buckets_per_unit)),
         last_bucket_(hn::Set(d_, static_cast<float>(f.bucket_count - 1))),
@@ -39,16 +40,23 @@ class VectorMaximum {
     const I low_half = hn::Set(di_, 0xffff);
     I first = hn::And(entry, low_half);
     I last = hn::And(hn::GatherIndex(di_, buckets_, upper_bucket), low_half);
-    F most = value_at(lower, first);
-    most = hn::Max(most, value_at(upper, last));
+    const F at_lower = value_at(lower, first);
+    F extreme = pick(at_lower, value_at(upper, last));
     const I crossed = hn::Sub(last, first);
     const auto crossing = hn::RebindMask(d_, hn::Gt(crossed, hn::Zero(di_)));
     if (!hn::AllFalse(d_, crossing))
-      most = hn::Max(most, hn::IfThenElseZero(crossing, knot_maximum(first, last, crossed)));
-    return hn::IfThenElseZero(maybe, most);
+      extreme = hn::IfThenElse(crossing, pick(extreme, knot_extreme(first, last, crossed)), extreme);
+    return hn::IfThenElseZero(maybe, extreme);
   }
 
  private:
+  static HWY_INLINE F pick(F a, F b) {
+    if constexpr (kMinimum)
+      return hn::Min(a, b);
+    else
+      return hn::Max(a, b);
+  }
+
   HWY_INLINE I bucket_of(F value) const {
     const F at = hn::Mul(hn::Sub(value, origin_), per_unit_);
     // NaN falls into bucket 0.
@@ -69,8 +77,8 @@ class VectorMaximum {
     }
   }
 
-  /// The greatest value at the knots of pieces first + 1 .. last; any value where there are none.
-  HWY_INLINE F knot_maximum(I first, I last, I crossed) const {
+  /// The extreme at the knots of pieces first + 1 .. last; any value where there are none.
+  HWY_INLINE F knot_extreme(I first, I last, I crossed) const {
     // The exponent of a whole number's float is the logarithm's floor; counts are far below 2^24.
     const I some = hn::Max(crossed, one_);
     const I exponent =
@@ -80,8 +88,8 @@ class VectorMaximum {
     const I row = hn::Mul(exponent, piece_count_);
     const I last_start = hn::Max(hn::Sub(hn::Add(last, one_), width), hn::Zero(di_));
     const I first_start = hn::Min(hn::Add(first, one_), hn::Sub(piece_count_, one_));
-    return hn::Max(hn::GatherIndex(d_, knot_max_, hn::Add(row, first_start)),
-                   hn::GatherIndex(d_, knot_max_, hn::Add(row, last_start)));
+    return pick(hn::GatherIndex(d_, knots_, hn::Add(row, first_start)),
+                hn::GatherIndex(d_, knots_, hn::Add(row, last_start)));
   }
 
   Floats d_;
@@ -89,32 +97,43 @@ class VectorMaximum {
   hn::RebindToUnsigned<Ints> du_;
   const float* pieces_;
   const std::int32_t* buckets_;
-  const float* knot_max_;
+  const float* knots_;
   F origin_, per_unit_, last_bucket_;
   I piece_count_;
   I one_ = hn::Set(Ints(), 1);
 };
 
-void find_maxima(const RangeMaximumView& function, const ValueRange* ranges, std::int64_t count, float scale,
-                 float* mu_maj) {
+template <bool kMinimum>
+void find_extremes(const RangeExtremesView& function, const ValueRange* ranges, std::int64_t count,
+                   float scale, float* out) {
   const Floats d;
   constexpr std::int64_t kMostLanes = 16;
   const auto lanes = static_cast<std::int64_t>(hn::Lanes(d));
-  const VectorMaximum maximum(function);
+  const VectorExtreme<kMinimum> extreme(function);
   const F factor = hn::Set(d, scale);
   const auto step = [&](const ValueRange* from, float* to) HWY_ATTR {
     F lower, upper;
     hn::LoadInterleaved2(d, reinterpret_cast<const float*>(from), lower, upper);
-    hn::StoreU(hn::Mul(maximum(lower, upper), factor), d, to);
+    hn::StoreU(hn::Mul(extreme(lower, upper), factor), d, to);
   };
   std::int64_t i = 0;
-  for (; i + lanes <= count; i += lanes) step(ranges + i, mu_maj + i);
+  for (; i + lanes <= count; i += lanes) step(ranges + i, out + i);
   if (i == count) return;
   ValueRange rest[kMostLanes];
   float results[kMostLanes];
   for (std::int64_t n = 0; n < kMostLanes; ++n) rest[n] = i + n < count ? ranges[i + n] : ValueRange{1, 0};
   step(rest, results);
-  for (std::int64_t n = 0; i + n < count; ++n) mu_maj[i + n] = results[n];
+  for (std::int64_t n = 0; i + n < count; ++n) out[i + n] = results[n];
+}
+
+void find_maxima(const RangeExtremesView& function, const ValueRange* ranges, std::int64_t count, float scale,
+                 float* mu_maj) {
+  find_extremes<false>(function, ranges, count, scale, mu_maj);
+}
+
+void find_minima(const RangeExtremesView& function, const ValueRange* ranges, std::int64_t count,
+                 float* mu_min) {
+  find_extremes<true>(function, ranges, count, 1.0f, mu_min);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -125,10 +144,16 @@ HWY_AFTER_NAMESPACE();
 namespace voxlume {
 
 HWY_EXPORT(find_maxima);
+HWY_EXPORT(find_minima);
 
-void simd::find_range_maxima(const RangeMaximumView& function, const ValueRange* ranges, std::int64_t count,
+void simd::find_range_maxima(const RangeExtremesView& function, const ValueRange* ranges, std::int64_t count,
                              float scale, float* mu_maj) noexcept {
   HWY_DYNAMIC_DISPATCH(find_maxima)(function, ranges, count, scale, mu_maj);
+}
+
+void simd::find_range_minima(const RangeExtremesView& function, const ValueRange* ranges, std::int64_t count,
+                             float* mu_min) noexcept {
+  HWY_DYNAMIC_DISPATCH(find_minima)(function, ranges, count, mu_min);
 }
 
 }  // namespace voxlume
