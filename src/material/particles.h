@@ -1,6 +1,8 @@
 #pragma once
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 #include "material/albedo_table.h"
@@ -11,6 +13,7 @@
 #include "material/scatter.h"
 #include "material/surface.h"
 #include "sampling/logarithm.h"
+#include "sampling/sobol.h"
 
 namespace voxlume {
 
@@ -141,12 +144,6 @@ inline float phase_of(const ParticlePoint& p, Vec3f wo, Vec3f wi) noexcept {
   return (1.0f - p.back_share) * first + p.back_share * phase_hg_between(wo, wi, p.g_back);
 }
 
-/// Probability that glass drawn with a half vector of this reflectance reflects.
-inline float reflects_probability(float fresnel, float bright) noexcept {
-  const float both = fresnel + (1.0f - fresnel) * bright;
-  return both > 0.0f ? fresnel / both : 1.0f;
-}
-
 /// The two directions at a surface, with the normal on wo's side.
 struct Incidence {
   Vec3f normal;
@@ -181,17 +178,16 @@ inline void add_reflection(const ParticlePoint& p, const ParticleShares& shares,
   const float smith_o = smith_term(at.cos_o, alpha);
   const float reflected =
       at.cos_i * d / (2.0f * (at.cos_i * smith_o + at.cos_o * smith_term(at.cos_i, alpha)));
-  const float visible = d / (2.0f * (at.cos_o + smith_o));
   const float cos_d = std::min(0.5f * sum_length, 1.0f);
   const float m = 1.0f - cos_d, m5 = m * m * m * m * m;
   const float rho = reflected / c.mirror.albedo;
   out.specular += (p.color + (Vec3f(1.0f) - p.color) * m5) * (shares.metal * rho);
   out.specular += Vec3f(shares.rest * c.fresnel * rho);
-  out.pdf += (c.metal + (c.coat - c.glass)) * visible;
+  out.pdf += (c.metal + (c.coat - c.glass)) * rho;
   if (!bends) return;
-  const float fresnel = fresnel_dielectric(cos_d, at.eta);
-  out.specular += Vec3f(shares.glass * fresnel * reflected / c.pane.albedo);
-  out.pdf += (c.glass - c.metal) * reflects_probability(fresnel, luminance(p.color)) * visible;
+  const float rho_glass = fresnel_dielectric(cos_d, at.eta) * reflected / c.pane.albedo;
+  out.specular += Vec3f(shares.glass * rho_glass);
+  out.pdf += (c.glass - c.metal) * rho_glass;
 }
 
 /// Adds what glass lets through to the other side, cos_i < 0.
@@ -207,13 +203,11 @@ inline void add_refraction(const ParticlePoint& p, float share, const ParticleCh
   // Solid angle of half vectors per solid angle of wi, times D (wo.h).
   const float stretch = at.eta / sum_length;
   const float density = ggx_distribution(at.normal, h, alpha) * cos_o * (cos_i * stretch * stretch);
-  const float fresnel = fresnel_dielectric(cos_o, at.eta);
-  // G2 / cos_o and G1 / cos_o
+  // G2 / cos_o
   const float open = 2.0f * -at.cos_i / (-at.cos_i * smith_o + at.cos_o * smith_term(-at.cos_i, alpha));
-  const float visible = 2.0f / (at.cos_o + smith_o);
-  out.specular += p.color * (share * (1.0f - fresnel) * density * open / c.pane.albedo);
-  out.pdf +=
-      (c.glass - c.metal) * (1.0f - reflects_probability(fresnel, luminance(p.color))) * density * visible;
+  const float rho = (1.0f - fresnel_dielectric(cos_o, at.eta)) * density * open / c.pane.albedo;
+  out.specular += p.color * (share * rho);
+  out.pdf += (c.glass - c.metal) * rho;
 }
 
 /// h by its parts (metal, glass and coat are the specular one) and the density of sample_particles, for unit
@@ -251,43 +245,71 @@ inline float within_bounds(float u, float low, float high) noexcept {
   return std::clamp((u - low) / (high - low), 0.0f, 1.0f - 0x1p-24f);
 }
 
-/// A direction drawn from the kind that u_lobe chooses; ended: masked, or on the side it cannot be on.
+/// Numbers in [0, 1) after those that a sample was given, which decide them.
+class FurtherNumbers {
+ public:
+  FurtherNumbers(float u_lobe, float u0, float u1) noexcept
+      : state_(mix_bits(std::bit_cast<std::uint32_t>(u0) ^
+                        mix_bits(std::bit_cast<std::uint32_t>(u1) ^
+                                 mix_bits(std::bit_cast<std::uint32_t>(u_lobe) + 1)))) {}
+  float next() noexcept { return unit_float(mix_bits(state_ += 0x9E3779B9u)); }
+
+ private:
+  std::uint32_t state_;
+};
+
+/// A direction drawn from the kind that u_lobe chooses; ended: on the side it cannot be on.
 struct ParticleDirection {
   Vec3f wi;
   bool ended;
 };
+
+/// Microfacets that are tried before a direction is given up: each is kept with a probability of at least 0.3
+/// on average.
+constexpr int kMostFacets = 100;
+
+/// Draws a direction from metal or coat, or from glass: a visible microfacet (for glass with its Fresnel
+/// reflectance, what it reflects or lets through), kept with the probability G2 / G1 that nothing masks the
+/// way out. What is kept has the density of the normalised lobe itself, so that white matter changes no
+/// path's weight, however often it scatters.
+inline ParticleDirection sample_facet(const ParticlePoint& p, bool glass, bool outside, Vec3f wo,
+                                      float u_lobe, float u0, float u1) noexcept {
+  const Vec3f normal = outside ? p.normal : -p.normal;
+  const Frame frame(normal);
+  const float alpha = std::max(p.alpha, kMinAlpha), eta = outside ? p.ior : 1.0f / p.ior;
+  Vec3f local_o = frame.to_local(wo);
+  local_o.z = std::max(local_o.z, 0.0f);
+  const float cos_o = std::min(local_o.z, 1.0f), smith_o = smith_term(cos_o, alpha);
+  FurtherNumbers numbers(u_lobe, u0, u1);
+  for (int i = 0; i < kMostFacets; ++i) {
+    const Vec3f h = normalize(frame.to_world(sample_visible_normal(local_o, alpha, u0, u1)));
+    const float cos_d = std::clamp(dot(wo, h), 0.0f, 1.0f);
+    const bool passes = glass && numbers.next() >= fresnel_dielectric(cos_d, eta);
+    const Vec3f wi = normalize(passes ? refract(wo, h, eta) : h * (2.0f * cos_d) - wo);
+    const float cos_i = std::min(passes ? -dot(normal, wi) : dot(normal, wi), 1.0f);
+    const float masked = cos_i * smith_o + cos_o * smith_term(std::max(cos_i, 0.0f), alpha);
+    if (cos_i > 0.0f && numbers.next() * masked < cos_i * (cos_o + smith_o)) return {wi, false};
+    u0 = numbers.next();
+    u1 = numbers.next();
+  }
+  return {normal, true};
+}
+
 inline ParticleDirection sample_surface_particle(const ParticlePoint& p, const ParticleChoice& c, Vec3f wo,
                                                  float u_lobe, float u0, float u1) noexcept {
   const bool glass = u_lobe >= c.metal && u_lobe < c.glass;
   if (glass && !(p.ior >= kMinIor)) return {sample_straight(wo, u0, u1), false};
   const bool outside = dot(p.normal, wo) >= 0.0f;
+  if (u_lobe < c.coat) return sample_facet(p, glass, outside, wo, u_lobe, u0, u1);
   const Vec3f normal = outside ? p.normal : -p.normal;
-  const Frame frame(normal);
-  if (u_lobe >= c.coat) {
-    const float even = even_share(std::min(dot(normal, wo), 1.0f), p.diffuse_roughness);
-    const Vec3f wi = normalize(
-        frame.to_world(sample_rough_diffuse(even, within_bounds(u_lobe, c.coat, c.diffuse), u0, u1)));
-    return {wi, !(dot(normal, wi) > 0.0f)};
-  }
-  Vec3f local_o = frame.to_local(wo);
-  local_o.z = std::max(local_o.z, 0.0f);
-  const Vec3f h =
-      normalize(frame.to_world(sample_visible_normal(local_o, std::max(p.alpha, kMinAlpha), u0, u1)));
-  const float cos_d = std::clamp(dot(wo, h), 0.0f, 1.0f);
-  if (glass) {
-    const float eta = outside ? p.ior : 1.0f / p.ior;
-    const float reflects = reflects_probability(fresnel_dielectric(cos_d, eta), luminance(p.color));
-    if (within_bounds(u_lobe, c.metal, c.glass) >= reflects) {
-      const Vec3f wi = normalize(refract(wo, h, eta));
-      return {wi, !(dot(normal, wi) < 0.0f)};
-    }
-  }
-  const Vec3f wi = normalize(h * (2.0f * cos_d) - wo);
+  const float even = even_share(std::min(dot(normal, wo), 1.0f), p.diffuse_roughness);
+  const Vec3f wi = normalize(
+      Frame(normal).to_world(sample_rough_diffuse(even, within_bounds(u_lobe, c.coat, c.diffuse), u0, u1)));
   return {wi, !(dot(normal, wi) > 0.0f)};
 }
 
 /// Draws wi with the density that eval_particles reports; weight a path by value / pdf. pdf = 0: the path
-/// ends. The density's integral is below 1 by what ends so. `c` is particle_choice(p, wo).
+/// ends. `c` is particle_choice(p, wo).
 inline ScatterSample sample_particles(const ParticlePoint& p, const ParticleChoice& c, Vec3f wo, float u_lobe,
                                       float u0, float u1) noexcept {
   if (!(c.any > 0.0f)) return {-wo, Vec3f(0.0f), 0.0f};

@@ -58,9 +58,19 @@ class SequenceLoop {
     return picture;
   }
 
+  /// Names the frame in errors that the volume alone brings to light.
+  void compile(int frame) {
+    SceneDescription scene = session_.frame_description(frame);
+    try {
+      session_.compile(std::move(scene));
+    } catch (const Error& error) {
+      throw Error(error.code(), error.where(), error.message() + " (frame " + std::to_string(frame) + ")");
+    }
+  }
+
   /// Shows the denoiser a frame that is there already, or is not asked for.
   RenderStatus recall(int frame) {
-    session_.compile(session_.frame_description(frame));
+    compile(frame);
     const CompiledScene& scene = session_.compiled();
     const PictureSamples samples =
         render_picture(scene, session_.fingerprint(scene.description()), picture_options(frame));
@@ -70,7 +80,7 @@ class SequenceLoop {
 
   RenderStatus render(int frame) {
     const Clock::time_point begin = Clock::now();
-    session_.compile(session_.frame_description(frame));
+    compile(frame);
     const CompiledScene& scene = session_.compiled();
     const double compile_s = seconds_since(begin);
     const fs::path file = options_.files.path(frame);

@@ -8,6 +8,7 @@
 #include "camera/camera.h"
 #include "grid/grid_view.h"
 #include "image_io/image_io.h"
+#include "scene/peers.h"
 #include "scene/recenter.h"
 #include "scene/resolve.h"
 #include "scene/tracking_choice.h"
@@ -157,14 +158,21 @@ CompiledScene::Parts CompiledScene::compile_parts(const SceneDescription& descri
 
 void CompiledScene::compile_rules(const SceneDescription& description, bool everything, Parts& parts) const {
   const bool new_volumes = everything || !(description.proxies == description_.proxies);
+  const bool by_opacity = description.render.integrator == Integrator::kAr2t;
   const bool new_materials = everything || !(description.materials == description_.materials) ||
-                             !(description.material == description_.material);
+                             !(description.material == description_.material) ||
+                             by_opacity != (description_.render.integrator == Integrator::kAr2t);
   if (new_volumes) parts.rule_volumes.emplace(volume_, statistics_, description.proxies, origin_mm_);
-  if (new_materials) parts.materials.emplace(description.material, description.materials);
   if (!new_volumes && !new_materials && description.transfer == description_.transfer) return;
   const RuleVolumes& volumes = parts.rule_volumes ? *parts.rule_volumes : *rule_volumes_;
-  const Materials& materials = parts.materials ? *parts.materials : *materials_;
-  parts.classifier.emplace(description.transfer, volumes.volumes(), materials.named());
+  const auto compile = [&](const SceneDescription& scene) {
+    if (new_materials) parts.materials.emplace(scene.material, scene.materials);
+    const Materials& materials = parts.materials ? *parts.materials : *materials_;
+    parts.classifier.emplace(scene.transfer, volumes.volumes(), materials.named());
+  };
+  // First the rules as the scene has them, for what is wrong to have the scene's own numbers.
+  if (!by_opacity || !description.transfer.rules.empty()) compile(description);
+  if (by_opacity) compile(with_opacity_materials(description));
   if (parts.classifier->has_rules()) check_depth(parts.classifier->upper_mu_t(), volume_);
 }
 

@@ -1,7 +1,9 @@
 #include "scene/peers.h"
 
 #include <algorithm>
+#include <string>
 
+#include "transfer/classifier_view.h"
 #include "voxlume/error.h"
 
 namespace voxlume {
@@ -31,16 +33,30 @@ std::vector<OpacityMaterial> ar2t_materials() {
   return {{0, dielectric}, {0.1, matte}, {0.4, glossy}, {0.7, metal}};
 }
 
+[[noreturn]] void refuse(const char* where, const std::string& why) {
+  throw Error(ErrorCode::kUnsupported, where, why);
+}
+
+}  // namespace
+
+void apply_integrator(SceneDescription& scene) {
+  const Integrator integrator = scene.render.integrator;
+  if (integrator != Integrator::kExposureRender && integrator != Integrator::kRmss) return;
+  scene.render.max_scatter = 1;
+  if (scene.material.shading == Shading::kCoexistence) scene.material.shading = Shading::kExposureRender;
+}
+
 /// AR2T (Denisova et al. 2022, "AR2T: advanced realistic rendering technique for biomedical volumes"):
 /// dielectric where the opacity is low, metal where it is high, matte and glossy surfaces between.
-void write_out_ar2t(SceneDescription& scene) {
+SceneDescription with_opacity_materials(SceneDescription scene) {
   TransferDescription& transfer = scene.transfer;
-  const auto refuse = [](const char* why) {
-    throw Error(ErrorCode::kUnsupported, "/render/integrator", why);
-  };
-  if (transfer.points.empty()) refuse("ar2t needs a transfer function with points");
+  if (transfer.points.empty()) refuse("/render/integrator", "ar2t needs a transfer function with points");
   if (!transfer.rules.empty() && transfer.merge != Merge::kPriority)
-    refuse("ar2t needs rules that are merged by priority");
+    refuse("/render/integrator", "ar2t needs rules that are merged by priority");
+  if (transfer.rules.size() + 2 > static_cast<std::size_t>(kMostRules))
+    refuse("/transfer/rules", "found " + std::to_string(transfer.rules.size()) +
+                                  " rules; ar2t, which adds one, takes at most " +
+                                  std::to_string(kMostRules - 2));
   RuleDescription rule;
   rule.kind = RuleKind::kMaterialSteps;
   rule.volume = "opacity";
@@ -56,18 +72,7 @@ void write_out_ar2t(SceneDescription& scene) {
   }
   transfer.rules.insert(transfer.rules.begin(), rule);
   transfer.merge = Merge::kPriority;
-  scene.render.integrator = Integrator::kPath;
-}
-
-}  // namespace
-
-void write_out_integrator(SceneDescription& scene) {
-  const Integrator integrator = scene.render.integrator;
-  if (integrator == Integrator::kExposureRender || integrator == Integrator::kRmss) {
-    scene.render.max_scatter = 1;
-    if (scene.material.shading == Shading::kCoexistence) scene.material.shading = Shading::kExposureRender;
-  }
-  if (integrator == Integrator::kAr2t) write_out_ar2t(scene);
+  return scene;
 }
 
 }  // namespace voxlume

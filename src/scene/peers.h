@@ -3,12 +3,14 @@
 
 namespace voxlume {
 
-/// Writes out what the scene's integrator stands for, where that is another renderer's picture of the scene
-/// (docs/peers.md): exposure-render and rmss scatter once and have Exposure Render's shading in place of
-/// coexistence; ar2t becomes path tracing under a rule that gives materials by the opacity of the transfer
-/// function's own points, which comes before the scene's rules. Once more changes nothing. Throws Error
-/// kUnsupported (/render/integrator) for ar2t without such points, or with rules that are not merged by
-/// priority.
-void write_out_integrator(SceneDescription& scene);
+/// Sets what the scene's integrator demands of its other fields (docs/peers.md): exposure-render and rmss
+/// scatter once and have Exposure Render's shading in place of coexistence. Once more changes nothing.
+void apply_integrator(SceneDescription& scene);
+
+/// The scene with the rule that ar2t stands for, which gives materials by the opacity of the transfer
+/// function's own points, before its own rules; materials of the scene that have their names take their
+/// places. Throws Error kUnsupported, at /render/integrator, without such points or with rules that are not
+/// merged by priority, and at /transfer/rules where there is no room for one more.
+SceneDescription with_opacity_materials(SceneDescription scene);
 
 }  // namespace voxlume

@@ -98,7 +98,7 @@ SceneDescription resolve(const SceneDescription& scene, const Volume& volume,
   if (!out.camera.fit_radius_mm) out.camera.fit_radius_mm = static_cast<float>(sphere.radius_mm);
   ImageDescription& image = out.image;
   if (!image.spp && !image.seconds && !image.noise) image.spp = kDefaultSpp;
-  write_out_integrator(out);
+  apply_integrator(out);
   return out;
 }
 

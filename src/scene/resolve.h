@@ -17,9 +17,8 @@ BoundingSphere visible_sphere(const Volume& volume, const std::optional<ClipDesc
 
 /// Fills in everything the user left open (the default picture, docs/default-picture.md), so that the result
 /// alone, saved, gives the same picture: preset points, reference length, lights, environment, background,
-/// camera target and framing, samples. What is given stays, but what an integrator stands for is written out
-/// (scene/peers.h). Throws Error kBadParameter for an unknown preset or an empty clip box, and those of
-/// write_out_integrator.
+/// camera target and framing, samples. What is given stays, but for what the integrator demands
+/// (scene/peers.h). Throws Error kBadParameter for an unknown preset or an empty clip box.
 SceneDescription resolve(const SceneDescription& scene, const Volume& volume,
                          const VolumeStatistics& statistics);
 

@@ -35,18 +35,38 @@ bool same_grid(const GridView& a, const GridView& b) {
          same(p.column_y, q.column_y) && same(p.column_z, q.column_z) && same(p.translation, q.translation);
 }
 
-/// Whether every point of the main volume is inside the proxy's grid, rounding aside.
-bool covers(const RuleVolumeView& proxy, const GridView& main) {
-  if (proxy.is_main_grid) return true;
-  const Box3f domain = main.index_box(), box = proxy.grid.index_box();
+/// The smallest box of the proxy's index space that holds the main volume.
+Box3f main_in_proxy(const RuleVolumeView& proxy, const GridView& main) {
+  const Box3f domain = main.index_box();
+  Box3f out;
   for (int corner = 0; corner < 8; ++corner) {
     Vec3f p;
     for (int a = 0; a < 3; ++a) p[a] = corner >> a & 1 ? domain.upper[a] : domain.lower[a];
-    const Vec3f q = proxy.index_from_main.point(p);
-    for (int a = 0; a < 3; ++a)
-      if (!(q[a] > box.lower[a] + 1e-2f && q[a] < box.upper[a] - 1e-2f)) return false;
+    out.extend(proxy.index_of(p));
   }
+  return out;
+}
+
+/// Whether every point of the main volume is inside the proxy's grid, rounding aside.
+bool covers(const RuleVolumeView& proxy, const GridView& main) {
+  if (proxy.is_main_grid) return true;
+  const Box3f inside = main_in_proxy(proxy, main), box = proxy.grid.index_box();
+  for (int a = 0; a < 3; ++a)
+    if (!(inside.lower[a] > box.lower[a] + 1e-2f && inside.upper[a] < box.upper[a] - 1e-2f)) return false;
   return true;
+}
+
+/// Whether the values of a volume of labels hold none of these.
+bool has_none_of(const GridView& labels, const std::vector<std::int64_t>& wanted) {
+  std::atomic<bool> found{false};
+  with_voxels(labels.type, labels.voxels, [&](const auto* voxels) {
+    parallel_for(labels.size[2], 1, [&](std::int64_t k) {
+      for (std::int64_t i = k * labels.stride_k; i < (k + 1) * labels.stride_k && !found; ++i)
+        for (const std::int64_t label : wanted)
+          if (static_cast<double>(voxels[i]) == static_cast<double>(label)) found = true;
+    });
+  });
+  return !found;
 }
 
 std::vector<float> inside_labels(const ProxyDescription& proxy, const std::string& where) {
@@ -69,7 +89,11 @@ Volume derived(const ProxyDescription& proxy, const Volume& from, const std::str
   }
   VolumeDescription file;
   file.path = proxy.path;
-  return open_volume(file);
+  try {
+    return open_volume(file);
+  } catch (const Error& e) {
+    throw Error(e.code(), where + "/path", e.what());
+  }
 }
 
 }  // namespace
@@ -104,7 +128,11 @@ RuleVolumes::RuleVolumes(const Volume& main, const VolumeStatistics& statistics,
       return std::find_if(volumes_.begin(), volumes_.end(), [&](const auto& v) { return v.name == name; });
     };
     if (proxy.name.empty() || proxy.name == "opacity" || named(proxy.name) != volumes_.end())
-      refuse(where + "/name", fmt::format("found \"{}\", expected a name of its own", proxy.name));
+      refuse(
+          where + "/name",
+          fmt::format(
+              "found \"{}\", expected a name that is neither empty, nor data or opacity, nor another proxy's",
+              proxy.name));
     const bool from_file = proxy.kind == ProxyKind::kFile;
     if (from_file && proxy.path.empty()) refuse(where + "/path", "found \"\", expected a volume file");
     if (!from_file && !proxy.path.empty()) refuse(where + "/path", "a derived volume has none");
@@ -114,6 +142,8 @@ RuleVolumes::RuleVolumes(const Volume& main, const VolumeStatistics& statistics,
     if (proxy.kind == ProxyKind::kDistance && of != volumes_.begin() && !of->view.nearest)
       refuse(where + "/of", fmt::format("found \"{}\", which is interpolated, expected labels", proxy.of));
     const auto number = from_file ? 0 : static_cast<std::size_t>(of - volumes_.begin());
+    if (proxy.kind == ProxyKind::kDistance && has_none_of(of->view.grid, proxy.labels))
+      warnings_.push_back(where + "/labels: none of them occurs in \"" + proxy.of + "\"");
     add(proxy, derived(proxy, number == 0 ? main : voxels_[number - 1], where), origin_mm, where);
     // Where the gradient is large says nothing about which way a surface faces.
     if (proxy.kind == ProxyKind::kGradient)
@@ -142,6 +172,12 @@ void RuleVolumes::add(const ProxyDescription& proxy, Volume volume, const Double
   out.has_nonfinite = statistics.nonfinite_voxels > 0;
   view.inverse_gradient_scale = 1 / statistics.gradient_p999;
   out.covers_main = covers(view, main);
+  if (out.has_nonfinite)
+    warnings_.push_back(fmt::format("{}: {} voxels are not finite; rules do not apply there", where,
+                                    statistics.nonfinite_voxels));
+  if (!view.is_main_grid && intersect(main_in_proxy(view, main), view.grid.index_box()).empty())
+    warnings_.push_back(where + ": \"" + proxy.name +
+                        "\" lies nowhere in the volume, so its rules apply nowhere");
   if (view.nearest) {
     check_whole_numbers(view.grid, file);
     if (std::max(-out.values.lower, out.values.upper) > kMostLabel)

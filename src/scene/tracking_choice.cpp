@@ -53,7 +53,7 @@ AcceleratorChoice accelerator_choice(const SceneDescription& scene, const GridVi
     throw Error(ErrorCode::kBadParameter, "/render/hierarchy_rule",
                 "unknown \"" + render.hierarchy_rule + "\"; expected cost or thresholds");
   }
-  if (!scene.transfer.rules.empty()) {
+  if (!scene.transfer.rules.empty() || render.integrator == Integrator::kAr2t) {
     if (choice.kind != AcceleratorKind::kMacrocell && choice.kind != AcceleratorKind::kHierarchy)
       throw Error(ErrorCode::kUnsupported, "/render/accelerator",
                   "rules need auto, hierarchy (by cost), macrocell or none");

@@ -37,6 +37,9 @@ void check_points(const TransferDescription& transfer, const std::string& where)
       refuse(address, fmt::format("found value {} after {}, expected points sorted by value", point.value,
                                   transfer.points[i - 1].value));
     }
+    if (!point.material.empty())
+      refuse(child_address(address, "material"),
+             "found a material, which rules of kind mpctf and mdptf give alone");
     by_opacity |= point.opacity.has_value();
     by_extinction |= point.mu_t_per_mm.has_value();
     if (by_opacity && by_extinction) {

@@ -125,8 +125,9 @@ class RuleCheck {
     }
     if (point.material.empty()) refuse(where, "missing key \"material\", which a material rule needs");
     if (!material(point.material))
-      refuse(where + "/material",
-             fmt::format("found \"{}\", expected a material of the scene or of the library", point.material));
+      refuse(where + "/material", fmt::format("found \"{}\", expected a material of the scene or of the "
+                                              "library (`voxlume materials` lists it)",
+                                              point.material));
   }
 
   /// Points of steps, and discrete ones, either all have an extinction or none.
@@ -140,7 +141,7 @@ class RuleCheck {
     if (extinction_ && *extinction_ != has_extinction)
       refuse(where,
              fmt::format("found {}, expected an opacity (or mu_t_per_mm) of all points of the rule, or "
-                         "of their materials, or of none",
+                         "of their materials, or of none; two rules do for some with and some without",
                          has_extinction ? "an extinction where points before have none"
                                         : "no extinction where points before have one"));
     extinction_ = has_extinction;

@@ -177,6 +177,20 @@ TEST_F(CliSequence, RefusesWhatDoesNotGoTogether) {
   EXPECT_THAT(names(), ElementsAre("ball.nrrd", "ball.raw", "s.json"));
 }
 
+TEST_F(CliSequence, WhatTheVolumeBringsToLightNamesItsFrame) {
+  write("s.json", R"({"version": 1, "volume": {"path": "ball.nrrd"},
+    "transfer": {"rules": [{"kind": "mpctf", "points": [{"value": 0, "material": "gold"}]}],
+                 "points": [{"value": 0, "opacity": 0}, {"value": 900, "opacity": 1}]},
+    "image": {"width": 8, "height": 8, "spp": 1},
+    "animation": {"fps": 1, "frames": 3, "tracks": [
+      {"field": "/transfer/rules/0/points/0/material", "keys": [[0, "gold"], [2, "golf"]]}]}})");
+  const RunResult r = run({"render", "s.json", "-o", "f-#.png"});
+  EXPECT_EQ(r.code, 2);
+  EXPECT_EQ(line_count(r.err), 1) << r.err;
+  EXPECT_THAT(r.err, HasSubstr("/transfer/rules/0/points/0/material"));
+  EXPECT_THAT(r.err, HasSubstr("(frame 2)"));
+}
+
 /// Movies, with a PATH of the test's own.
 class CliMovie : public CliSequence {
  protected:

@@ -55,6 +55,24 @@ TEST(Particles, WhiteReturnsAll) {
     }
 }
 
+/// White matter of one kind changes no path's weight, so that a furnace stays white after any number of
+/// scatterings. (Diffuse by r > 0 is drawn nearly so, and kinds are mixed with floors.)
+TEST(Particles, WhiteOfOneKindWeighsOne) {
+  Rng rng(21, 0, 0, 0);
+  for (const ParticlePoint& p : {metal(kWhite, 0.16f), metal(kWhite, 1.0f), glass(kWhite, 0.16f, 1.5f),
+                                 glass(kWhite, 1.0f, 1.5f), glass(kWhite, 0.5f, 3.0f)})
+    for (const double degrees : {0.0, 60.0, 85.0, 120.0, 170.0}) {
+      const Vec3f wo = tilted(degrees);
+      const ParticleChoice choice = particle_choice(p, wo);
+      for (int i = 0; i < 2000; ++i) {
+        const float u_lobe = rng.next(), u0 = rng.next(), u1 = rng.next();
+        const ScatterSample s = sample_particles(p, choice, wo, u_lobe, u0, u1);
+        ASSERT_GT(s.pdf, 0);
+        ASSERT_NEAR(s.value.y / s.pdf, 1, 1e-5) << p.alpha << " " << p.ior << " " << degrees;
+      }
+    }
+}
+
 TEST(Particles, WhiteIntegratesToOne) {
   const auto all = kinds(kWhite);
   for (std::size_t i = 0; i < all.size(); ++i)

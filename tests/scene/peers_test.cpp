@@ -35,12 +35,12 @@ SceneDescription scene_of(Integrator integrator) {
 TEST(Peers, ExposureRenderAndRmssScatterOnceByItsShading) {
   for (const Integrator integrator : {Integrator::kExposureRender, Integrator::kRmss}) {
     SceneDescription scene = scene_of(integrator);
-    write_out_integrator(scene);
+    apply_integrator(scene);
     EXPECT_EQ(scene.render.max_scatter, 1);
     EXPECT_EQ(scene.material.shading, Shading::kExposureRender);
     EXPECT_EQ(scene.render.integrator, integrator);
     scene.material.shading = Shading::kPhase;  // which Exposure Render has as well
-    write_out_integrator(scene);
+    apply_integrator(scene);
     EXPECT_EQ(scene.material.shading, Shading::kPhase);
   }
 }
@@ -49,30 +49,64 @@ TEST(Peers, PathAndVplKeepWhatIsAsked) {
   for (const Integrator integrator : {Integrator::kPath, Integrator::kVplDvr}) {
     const SceneDescription scene = scene_of(integrator);
     SceneDescription written = scene;
-    write_out_integrator(written);
+    apply_integrator(written);
     EXPECT_EQ(written, scene);
   }
 }
 
+RuleDescription steps(std::vector<TransferPoint> points) {
+  RuleDescription rule;
+  rule.kind = RuleKind::kCoefficientSteps;
+  rule.points = std::move(points);
+  return rule;
+}
+
 TEST(Peers, Ar2tIsARuleByOpacityBeforeTheOthers) {
   SceneDescription scene = scene_of(Integrator::kAr2t);
-  RuleDescription own;
-  own.kind = RuleKind::kCoefficientSteps;
-  own.points = {opacity_point(50, 1)};
+  const RuleDescription own = steps({opacity_point(50, 1)});
   scene.transfer.rules = {own};
-  write_out_integrator(scene);
-  EXPECT_EQ(scene.render.integrator, Integrator::kPath);
-  ASSERT_EQ(scene.transfer.rules.size(), 2u);
-  EXPECT_EQ(scene.transfer.rules[1], own);
-  const RuleDescription& rule = scene.transfer.rules[0];
+  NamedMaterialDescription metal;
+  metal.name = "ar2t metal";
+  metal.like = "gold";
+  scene.materials = {metal};
+  const SceneDescription seen = with_opacity_materials(scene);
+  ASSERT_EQ(seen.transfer.rules.size(), 2u);
+  EXPECT_EQ(seen.transfer.rules[1], own);
+  const RuleDescription& rule = seen.transfer.rules[0];
   EXPECT_EQ(rule.volume, "opacity");
   ASSERT_EQ(rule.points.size(), 4u);
   EXPECT_EQ(rule.points[0].material, "ar2t dielectric");
   EXPECT_EQ(rule.points[3].material, "ar2t metal");
-  EXPECT_EQ(scene.materials.size(), 4u);
-  const SceneDescription once = scene;
-  write_out_integrator(scene);
-  EXPECT_EQ(scene, once);
+  ASSERT_EQ(seen.materials.size(), 4u);
+  EXPECT_EQ(seen.materials[0], metal);
+}
+
+TEST(Peers, Ar2tLeavesTheScenesOwnRulesTheirNumbers) {
+  const Volume volume = ramp();
+  const VolumeStatistics statistics = compute_statistics(make_grid_view(volume));
+  SceneDescription scene = scene_of(Integrator::kAr2t);
+  scene.transfer.rules = {steps({opacity_point(50, 1)}), steps({opacity_point(50, 1), opacity_point(40, 1)})};
+  const SceneDescription resolved = resolve(scene, volume, statistics);
+  EXPECT_EQ(resolved.transfer.rules, scene.transfer.rules);
+  EXPECT_EQ(resolved.render.integrator, Integrator::kAr2t);
+  try {
+    const CompiledScene compiled(resolved, volume, statistics);
+    ADD_FAILURE() << "points that are not sorted";
+  } catch (const Error& e) {
+    EXPECT_THAT(e.where(), HasSubstr("/transfer/rules/1/points/1"));
+  }
+}
+
+TEST(Peers, Ar2tComesAndGoesWithAnUpdate) {
+  const Volume volume = ramp();
+  const VolumeStatistics statistics = compute_statistics(make_grid_view(volume));
+  CompiledScene compiled(resolve(scene_of(Integrator::kPath), volume, statistics), volume, statistics);
+  EXPECT_EQ(compiled.view().medium.rules.rule_count, 0);
+  compiled.update(resolve(scene_of(Integrator::kAr2t), volume, statistics));
+  EXPECT_EQ(compiled.view().medium.rules.rule_count, 2);
+  compiled.update(resolve(scene_of(Integrator::kPath), volume, statistics));
+  EXPECT_EQ(compiled.view().medium.rules.rule_count, 0);
+  EXPECT_FALSE(compiled.view().scattering.particles);
 }
 
 TEST(Peers, Ar2tGivesMatterOfHighOpacityTheMetal) {
@@ -95,24 +129,26 @@ TEST(Peers, Ar2tGivesMatterOfHighOpacityTheMetal) {
   }
 }
 
-void expect_refused(const SceneDescription& scene, const char* why) {
-  SceneDescription copy = scene;
+void expect_refused(const SceneDescription& scene, const char* where, const char* why) {
   try {
-    write_out_integrator(copy);
+    with_opacity_materials(scene);
     ADD_FAILURE() << why;
   } catch (const Error& e) {
-    EXPECT_EQ(e.where(), "/render/integrator");
+    EXPECT_EQ(e.where(), where);
     EXPECT_THAT(e.what(), HasSubstr(why));
   }
 }
 
 TEST(Peers, Ar2tIsRefusedWhereItMeansNothing) {
   SceneDescription scene = scene_of(Integrator::kAr2t);
-  scene.transfer.rules.resize(1);
+  scene.transfer.rules.assign(16, steps({opacity_point(50, 1)}));
+  expect_refused(scene, "/transfer/rules", "at most 15");
+  scene.transfer.rules.pop_back();
+  EXPECT_EQ(with_opacity_materials(scene).transfer.rules.size(), 16u);
   scene.transfer.merge = Merge::kProduct;
-  expect_refused(scene, "priority");
+  expect_refused(scene, "/render/integrator", "priority");
   scene.transfer.points.clear();
-  expect_refused(scene, "points");
+  expect_refused(scene, "/render/integrator", "points");
 }
 
 TEST(Peers, ThatMarchAreRefusedWithOtherTrackers) {

@@ -117,7 +117,12 @@ TEST_F(Proxies, Sources) {
   ProxyDescription both = proxy("a", kGradient);
   both.path = "b.nrrd";
   expect_refused_at("/proxies/0/path", {both});
-  EXPECT_THROW(read({file("a", "absent.nrrd")}), Error);
+  expect_refused(
+      "/proxies/1/path",
+      [&] {
+        read({file("a", "soft.nrrd"), file("b", "absent.nrrd")});
+      },
+      ErrorCode::kFileNotFound);
 }
 
 TEST_F(Proxies, Labels) {
@@ -128,6 +133,24 @@ TEST_F(Proxies, Labels) {
   const std::string soft = folder_ / "soft.nrrd";
   expect_refused(
       soft, [&] { read({file("organs", "soft.nrrd", Lookup::kNearest)}); }, ErrorCode::kBadFormat);
+}
+
+TEST_F(Proxies, ThatSayNothingAreWarnedOf) {
+  const auto expect_warning = [&](const std::vector<ProxyDescription>& proxies, const std::string& text) {
+    EXPECT_THAT(read(proxies).warnings(), testing::Contains(HasSubstr(text)));
+  };
+  test::Placement far;
+  far.origin_mm = {500, 0, 0};
+  write_volume(test::noise_volume<std::uint8_t>({9, 8, 7}, 0, 5, 2, far), folder_ / "far.nrrd");
+  expect_warning({file("far", "far.nrrd")}, "/proxies/0: \"far\" lies nowhere in the volume");
+  const auto holed = test::make_volume<float>({9, 8, 7}, [](auto i, auto, auto) { return i == 3 ? NAN : 1; });
+  write_volume(holed, folder_ / "holed.nrrd");
+  expect_warning({file("holed", "holed.nrrd")}, "/proxies/0: 56 voxels are not finite");
+  ProxyDescription depth = proxy("depth", kDistance, "organs");
+  depth.labels = {77};
+  expect_warning({file("organs", "organs.nrrd", Lookup::kNearest), depth}, "/proxies/1/labels: none of them");
+  depth.labels = {77, 2};
+  EXPECT_THAT(read({file("organs", "organs.nrrd", Lookup::kNearest), depth}).warnings(), testing::IsEmpty());
 }
 
 TEST_F(Proxies, LabelsThatFloatsCannotTellApart) {
@@ -231,6 +254,8 @@ TEST(RuleFields, AreChecked) {
                       "/transfer/rules/0/columns/0/points/0/metallic");
   expect_text_refused(rule(R"("columns": [{"points": []}])"), "/transfer/rules/0/columns/0");
   expect_text_refused(R"({"version": 1, "transfer": {"merge": "sum"}})", "/transfer/merge");
+  expect_text_refused(R"({"version": 1, "transfer": {"points": [{"value": 0, "material": "gold"}]}})",
+                      "/transfer/points/0/material");
   expect_text_refused(R"({"version": 1, "proxies": [{"name": "a", "kind": "sharpened"}]})",
                       "/proxies/0/kind");
   expect_text_refused(R"({"version": 1, "proxies": [{"name": "a", "sigma_mm": 0}]})", "/proxies/0/sigma_mm");
