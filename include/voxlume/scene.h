@@ -247,7 +247,7 @@ struct ImportanceDescription {
 };
 
 /// At which scatterings light rays are freed of what hides the important, too.
-enum class VisibilityLights { kNone, kFirst, kAll };
+enum class VisibilityLights { kOff, kFirst, kAll };
 
 /// What hides or clutters the important becomes transparent just enough (docs/visibility.md): mu_t is multiplied
 /// by p / (p + (1 - importance)^(2 lambda) h). Lengths in h are in halves of the volume's longest side.
@@ -257,7 +257,7 @@ struct VisibilityDescription {
   double q = 70;      ///< of what is before the important; >= 0
   double r = 30;      ///< of what is behind it; >= 0
   double lambda = 1;  ///< >= 0
-  VisibilityLights lights = VisibilityLights::kFirst;
+  VisibilityLights lights = VisibilityLights::kOff;
   int light_samples = 200;  ///< looks along a light ray
   int ray_samples = 48;     ///< looks of a pass along a pixel's ray
   int ray_passes = 16;

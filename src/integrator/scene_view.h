@@ -2,7 +2,7 @@
 #include <cstdint>
 
 #include "camera/camera.h"
-#include "importance/importance.h"
+#include "visibility/importance.h"
 #include "light/lights_view.h"
 #include "material/material.h"
 #include "tracking/estimators.h"
@@ -61,7 +61,7 @@ struct VisibilityView {
   ImportanceView importance;
   VisibilityWeights weights;
   PixelListsView pixels;
-  VisibilityLights lights = VisibilityLights::kNone;
+  VisibilityLights lights = VisibilityLights::kOff;
   std::int32_t light_samples = 200;
 };
 

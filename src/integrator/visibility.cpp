@@ -1,11 +1,13 @@
 #include "integrator/visibility.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <utility>
 
 #include "base/parallel.h"
 #include "camera/camera.h"
+#include "sampling/sobol.h"
 
 namespace voxlume {
 namespace {
@@ -19,6 +21,15 @@ float importance_on(const SceneView& scene, const TrackRay& ray, float t) noexce
   const Box3f& domain = scene.domain_index;
   const Vec3f p = ray.ray.origin_index + ray.ray.direction_index * t;
   return importance_at(scene.visibility.importance, min(max(p, domain.lower), domain.upper));
+}
+
+/// Another stream, which a path's own one decides and does not notice: where nothing is important, its numbers
+/// are what they would be.
+Rng beside(const Rng& stream) noexcept {
+  std::array<std::uint32_t, 4> state = stream.state();
+  for (std::uint32_t& word : state) word = mix_bits(word + 0x9E3779B9u);
+  state[0] |= 1;
+  return Rng(state);
 }
 
 TrackRay pixel_ray(const SceneView& scene, int x, int y) {
@@ -93,8 +104,9 @@ SegmentListView list_at(const SceneView& scene, float px, float py) noexcept {
   return {lists.pool + head.first, head.count, head.entry, head.exit, head.total};
 }
 
-SegmentListView find_light_importance(const SceneView& scene, const TrackRay& ray, Rng& rng,
+SegmentListView find_light_importance(const SceneView& scene, const TrackRay& ray, const Rng& stream,
                                       std::vector<ImportanceSegment>& segments) {
+  Rng rng = beside(stream);
   const Affinef& world = scene.medium.grid.world_from_index;
   const Vec3f back_index = -ray.ray.direction_index;
   const TrackRay behind =

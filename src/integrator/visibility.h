@@ -36,7 +36,7 @@ SegmentListView list_at(const SceneView& scene, float px, float py) noexcept;
 /// the list are from the light's end of the ray's part in the volume, t -> ray.t_far - t: so q weighs what stands
 /// between the light and the important, as for the eye. The line goes on behind the ray's origin: what scatters is
 /// often the very surface of what is important, with nothing of it on the way to the light.
-SegmentListView find_light_importance(const SceneView& scene, const TrackRay& ray, Rng& rng,
+SegmentListView find_light_importance(const SceneView& scene, const TrackRay& ray, const Rng& stream,
                                       std::vector<ImportanceSegment>& segments);
 
 }  // namespace voxlume

@@ -181,7 +181,7 @@ void CompiledScene::compile_lights(const SceneDescription& local, bool everythin
   const EnvironmentDescription& environment = *local.environment;
   // Directions find light through the physical extinction, which is not what shadow rays meet then.
   const bool other_shadows = local.material.self_occlusion < 1 ||
-                             (local.visibility && local.visibility->lights != VisibilityLights::kNone);
+                             (local.visibility && local.visibility->lights != VisibilityLights::kOff);
   const LightSampling sampling =
       other_shadows ? LightSampling::kLight : light_sampling(local.render.light_sampling);
   // The tables of the environment's picture are what takes long.

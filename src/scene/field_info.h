@@ -148,7 +148,7 @@ struct EnumWords<Integrator> {
 };
 template <>
 struct EnumWords<VisibilityLights> {
-  static constexpr std::array<std::string_view, 3> kWords{"none", "first", "all"};
+  static constexpr std::array<std::string_view, 3> kWords{"off", "first", "all"};
 };
 template <>
 struct EnumWords<ToneCurve> {

@@ -17,7 +17,7 @@ void visit_fields(V&& visit, Struct<ImportanceDescription>) {
         &T::importance);
   visit(
       {.key = "volume",
-       .doc = "\"data\" or a proxy. For labels a proxy of kind distance with the range [0, 1e30], which has "
+       .doc = "\"data\" or a proxy. For labels a proxy of kind distance with the range [0, 1e12], which has "
               "smooth borders."},
       &T::volume);
   visit({.key = "range", .doc = "Of the volume's values.", .absent = "all"}, &T::range);
@@ -66,7 +66,7 @@ void visit_fields(V&& visit, Struct<VisibilityDescription>) {
          .range = between(0, 100)},
         &T::lambda);
   visit({.key = "lights",
-         .doc = "Scatterings whose light rays are freed, too: none, the first of a path, or all."},
+         .doc = "Scatterings whose light rays are freed, too: none (off), the first of a path, or all."},
         &T::lights);
   visit({.key = "light_samples",
          .doc = "Looks for the important along a light ray.",

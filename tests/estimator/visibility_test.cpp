@@ -82,10 +82,11 @@ double marched_alpha(const SceneView& scene, int x, int y) {
 
 TEST(Visibility, CameraRaysMeetWhatTheClosedFormLeaves) {
   for (const double importance : {1.0, 0.75}) {
-    SceneDescription scene = hidden_blobs(VisibilityLights::kNone);
-    scene.visibility->important = {values(85, 1000, importance)};
+    SceneDescription scene = hidden_blobs(VisibilityLights::kOff);
+    scene.visibility->important = {values(60, 1000, importance)};
     scene.visibility->ray_passes = 64;
     scene.image.filter_radius_px = 1e-3;  // the rays of pixels' centres
+    scene.transfer.density_scale = 0.05;
     const Compiled compiled(scene, two_blobs());
     double sum2 = 0;
     int pixels = 0, faded = 0;
@@ -136,7 +137,7 @@ TEST(Visibility, NeverAddsMatter) {
 }
 
 TEST(Visibility, IsTheSameForAnyScale) {
-  SceneDescription scene = hidden_blobs(VisibilityLights::kNone);
+  SceneDescription scene = hidden_blobs(VisibilityLights::kOff);
   const Compiled small(scene, two_blobs());
   Volume large = two_blobs();
   for (int a = 0; a < 3; ++a) {

@@ -68,7 +68,7 @@ inline SceneDescription full_scene() {
   ImportanceDescription important;
   important.importance = 0.75;
   important.volume = "data";
-  important.range = std::array<double, 2>{300, 1e30};
+  important.range = std::array<double, 2>{300, 1e12};
   important.along = "steep";
   important.along_range = std::array<double, 2>{0.5, 40};
   important.center_mm = Double3{1, 2, 3};

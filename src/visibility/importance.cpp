@@ -1,4 +1,4 @@
-#include "importance/importance.h"
+#include "visibility/importance.h"
 
 namespace voxlume {
 namespace {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "importance/segment_list.h"
+#include "visibility/segment_list.h"
 #include "transfer/classifier_view.h"
 #include "voxlume/scene.h"
 

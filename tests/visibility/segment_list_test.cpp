@@ -1,4 +1,4 @@
-#include "importance/segment_list.h"
+#include "visibility/segment_list.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
