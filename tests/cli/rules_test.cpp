@@ -56,8 +56,7 @@ class CliRules : public CliTest {
 };
 
 TEST_F(CliRules, WhatIsImportantIsKeptInView) {
-  const std::vector<std::string> more{"--size", "24x24",        "--background",
-                                      "0,0,0",  "--save-scene", "kept.json"};
+  const std::vector<std::string> more{"--background", "0,0,0", "--save-scene", "kept.json"};
   const auto with = [&](std::vector<std::string> flags) {
     flags.insert(flags.end(), more.begin(), more.end());
     return flags;
