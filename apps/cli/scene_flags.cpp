@@ -123,20 +123,78 @@ void apply_raw(SceneDescription& scene, const std::string& text, const std::stri
   set_scene_field(scene, "/volume/raw", text, flag);
 }
 
-void apply_visibility_lights(SceneDescription&, const std::string& text, const std::string& flag) {
-  if (text == "off") return;
-  if (text != "first" && text != "all") refuse(flag, text, "one of off, first, all");
-  throw Error(ErrorCode::kUnsupported, flag, text + " is not built yet; available: off");
+VisibilityDescription& visibility_of(SceneDescription& scene) {
+  if (!scene.visibility) scene.visibility.emplace();
+  return *scene.visibility;
+}
+
+/// The proxy of that name, made where it is not there.
+ProxyDescription& proxy_named(SceneDescription& scene, const std::string& name) {
+  for (ProxyDescription& proxy : scene.proxies)
+    if (proxy.name == name) return proxy;
+  scene.proxies.emplace_back();
+  scene.proxies.back().name = name;
+  return scene.proxies.back();
+}
+
+/// The name of the proxy that has the distance from the border of the labels of "FILE=A,B,...".
+std::string distance_proxy(SceneDescription& scene, const std::string& text, const std::string& flag) {
+  const std::size_t equals = text.rfind('=');
+  if (equals == std::string::npos || equals == 0)
+    refuse(flag, text, "label:FILE=A,B,..., labels of a volume");
+  const std::string path = text.substr(0, equals), numbers = text.substr(equals + 1);
+  ProxyDescription& file = proxy_named(scene, "labels " + path);
+  file.path = path;
+  file.lookup = Lookup::kNearest;
+  const std::string of = file.name, name = "labels " + numbers + " " + path;
+  ProxyDescription& distance = proxy_named(scene, name);
+  distance.kind = ProxyKind::kDistance;
+  distance.of = of;
+  const std::vector<std::string> parts = split(numbers, ',');
+  distance.labels.assign(parts.size(), 0);
+  const std::string address = "/proxies/" + std::to_string(&distance - scene.proxies.data()) + "/labels/";
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    set_scene_field(scene, address + std::to_string(i), parts[i], flag);
+  return name;
+}
+
+void apply_important(SceneDescription& scene, const std::string& text, const std::string& flag) {
+  ImportanceDescription important;
+  important.range = {-1e12, 1e12};
+  const bool labels = text.starts_with("label:");
+  const std::vector<std::string> ends = split(text, ':');
+  if (labels) {
+    important.volume = distance_proxy(scene, text.substr(6), flag);
+    (*important.range)[0] = 0;  // inside
+  } else if (ends.size() != 2 || text == ":") {
+    refuse(flag, text, "LOWER:UPPER, a range of values, or label:FILE=A,B,...");
+  }
+  std::vector<ImportanceDescription>& all = visibility_of(scene).important;
+  all.push_back(important);
+  const std::string address = "/visibility/important/" + std::to_string(all.size() - 1) + "/range/";
+  for (std::size_t e = 0; e < 2 && !labels; ++e)
+    if (!ends[e].empty()) set_scene_field(scene, address + std::to_string(e), ends[e], flag);
+  const std::array<double, 2>& range = *scene.visibility->important.back().range;
+  if (!(range[0] <= range[1])) refuse(flag, text, "the lower end first");
+}
+
+void apply_visibility(SceneDescription& scene, const std::string& text, const std::string& flag) {
+  const std::vector<std::string> parts = split(text, ',');
+  if (parts.size() != 4) refuse(flag, text, "p,q,r,lambda, such as 1,70,30,1");
+  visibility_of(scene);
+  const char* const kAddresses[] = {"/visibility/p", "/visibility/q", "/visibility/r", "/visibility/lambda"};
+  for (std::size_t i = 0; i < 4; ++i) set_scene_field(scene, kAddresses[i], parts[i], flag);
+}
+
+void apply_visibility_lights(SceneDescription& scene, const std::string& text, const std::string& flag) {
+  visibility_of(scene);
+  set_scene_field(scene, "/visibility/lights", text, flag);
 }
 
 void apply_turntable(SceneDescription& scene, const std::string& text, const std::string& flag) {
   set_scene_field(scene, "/animation/turntable", "{}", flag);
   scene.animation->frames.reset();  // as many as it takes
   if (!text.empty()) set_scene_field(scene, "/animation/turntable/seconds", text, flag);
-}
-
-void not_built(SceneDescription&, const std::string&, const std::string&) {
-  throw Error(ErrorCode::kUnsupported, "", "is not built yet");
 }
 
 // The first rows are volume flags, which other commands have as well.
@@ -185,9 +243,14 @@ constexpr Row kRows[] = {
      "none: take noise out of the picture"},
     {"--simd", "NAME", "/render/simd", "auto, scalar, sse4, avx2, avx512 or neon"},
     {"--accel", "NAME", "/render/accelerator", "auto, none, macrocell, octree, hierarchy or residency"},
-    {"--important", "RANGE", "/render", "Not built yet", not_built},
-    {"--visibility", "P,Q,R,LAMBDA", "/render", "Not built yet", not_built},
-    {"--visibility-lights", "NAME", "/render", "off (first, all: not built yet)", apply_visibility_lights},
+    {"--important", "LO:HI|label:FILE=N", "/visibility/important",
+     "What to keep in view: values from LO to HI, or labels N,M,... of a label volume", apply_important},
+    {"--visibility", "P,Q,R,LAMBDA", "/visibility/p",
+     "How much of what is before (q) and behind (r) the important fades, against staying as it is (p); "
+     "1,70,30,1",
+     apply_visibility},
+    {"--visibility-lights", "NAME", "/visibility/lights",
+     "off, first or all: scatterings whose light rays are freed, too", apply_visibility_lights},
     {"--turntable", "[SECONDS]", "/animation/turntable", "Camera once around its target, in 6 s unless given",
      apply_turntable},
     {"--fps", "N", "/animation/fps"},

@@ -233,6 +233,37 @@ struct ClipDescription {
   friend bool operator==(const ClipDescription&, const ClipDescription&) = default;
 };
 
+/// What the user marks as important (lerzer2025 section 4.2): where all that is given holds.
+struct ImportanceDescription {
+  double importance = 1;        ///< [0,1]; where several hold, the greatest counts
+  std::string volume = "data";  ///< "data" or a proxy
+  std::optional<std::array<double, 2>> range;        ///< of the volume's values
+  std::string along;                                 ///< 2-D: a second volume
+  std::optional<std::array<double, 2>> along_range;  ///< of its values
+  std::optional<Double3> center_mm;                  ///< of a region, which is a sphere or a box
+  std::optional<double> radius_mm;                   ///< > 0
+  std::optional<Double3> size_mm;                    ///< edges, > 0
+  friend bool operator==(const ImportanceDescription&, const ImportanceDescription&) = default;
+};
+
+/// At which scatterings light rays are freed of what hides the important, too.
+enum class VisibilityLights { kOff, kFirst, kAll };
+
+/// What hides or clutters the important becomes transparent just enough (docs/visibility.md): mu_t is multiplied
+/// by p / (p + (1 - importance)^(2 lambda) h). Lengths in h are in halves of the volume's longest side.
+struct VisibilityDescription {
+  std::vector<ImportanceDescription> important;
+  double p = 1;       ///< weight of what matter is; > 0
+  double q = 70;      ///< of what is before the important; >= 0
+  double r = 30;      ///< of what is behind it; >= 0
+  double lambda = 1;  ///< >= 0
+  VisibilityLights lights = VisibilityLights::kOff;
+  int light_samples = 200;  ///< looks along a light ray
+  int ray_samples = 48;     ///< looks of a pass along a pixel's ray
+  int ray_passes = 16;
+  friend bool operator==(const VisibilityDescription&, const VisibilityDescription&) = default;
+};
+
 enum class PixelFilter { kGaussian, kBox };
 /// How the first random numbers of a pixel's samples are chosen.
 enum class Sampler { kSobol, kRandom };
@@ -354,6 +385,7 @@ struct SceneDescription {
   std::optional<LabelsDescription> labels;
   std::vector<NamedMaterialDescription> materials;
   std::optional<IllustrationDescription> illustration;  ///< absent: light transport
+  std::optional<VisibilityDescription> visibility;      ///< absent: matter is as opaque as it is
   MaterialDescription material;
   std::optional<std::vector<LightDescription>> lights;  ///< absent: the default lights; [] is none
   std::optional<EnvironmentDescription> environment;    ///< absent: the default one

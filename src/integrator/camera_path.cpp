@@ -6,6 +6,7 @@
 #include "integrator/illustration.h"
 #include "integrator/unshadowed.h"
 #include "integrator/virtual_lights.h"
+#include "integrator/visibility.h"
 
 namespace voxlume {
 namespace {
@@ -51,8 +52,10 @@ CameraPath::Wait CameraPath::begin(const SceneView& scene, const PrimaryRay& pri
   first_unshadowed_ = 0;
   out_ = {};
   if (scene.keeps_parts) first_light_ = {};
+  on_light_ray_ = false;
+  eye_list_ = scene.visibility.on ? list_at(scene, px_, py_) : SegmentListView{};
   ++counters.paths;
-  return primary.enters ? Wait::kFlight : end_flight(scene, {});
+  return primary.enters ? Wait::kFlight : end_flight(scene, {}, counters);
 }
 
 /// At the first scattering a stratified number, if there is one; later the stream's.
@@ -73,9 +76,55 @@ TrackRay CameraPath::turned_ray() const noexcept {
   return ray;
 }
 
-CameraPath::Wait CameraPath::fly(const SceneView& scene) noexcept {
+CameraPath::Wait CameraPath::fly(const SceneView& scene, TraceCounters& counters) noexcept {
   ray_ = turned_ray();
-  return enters() ? Wait::kFlight : end_flight(scene, {});
+  return enters() ? Wait::kFlight : end_flight(scene, {}, counters);
+}
+
+/// Whether matter that the camera's flight collides with is one of the parts that fade: collisions with mu'
+/// are those with mu, each kept with probability mu' / mu.
+bool CameraPath::fades(const SceneView& scene, const Collision& collision) noexcept {
+  if (depth_ > 0 || !(eye_list_.total > 0)) return false;
+  const float kept = visibility_factor(scene.visibility.weights, eye_list_, collision.t_mm,
+                                       importance_at(scene.visibility.importance, collision.p_index));
+  return kept < 1 && rng_.next() >= kept;
+}
+
+/// Goes on from a collision that counts for nothing.
+CameraPath::Wait CameraPath::fly_on(const Collision& collision) noexcept {
+  ray_.t_near = collision.t_mm;
+  ray_.u_collision = ray_.u_depth = -1;
+  return Wait::kFlight;
+}
+
+/// Waits for the transmittance of the shadow ray: of the matter as it is, or, where some of it fades, found
+/// by flights from collision to collision.
+CameraPath::Wait CameraPath::cross_shadow(const SceneView& scene) noexcept {
+  const VisibilityView& visibility = scene.visibility;
+  const bool fades = visibility.on && (visibility.lights == VisibilityLights::kAll ||
+                                       (visibility.lights == VisibilityLights::kFirst && depth_ == 0));
+  if (!fades) return Wait::kTransmittance;
+  light_list_ = find_light_importance(scene, ray_, rng_, light_segments_);
+  if (!(light_list_.total > 0)) return Wait::kTransmittance;
+  on_light_ray_ = true;
+  light_transmittance_ = 1;
+  return Wait::kFlight;
+}
+
+/// Ratio tracking of the matter that has not faded, whose tentative collisions are those with all of it.
+CameraPath::Wait CameraPath::end_light_flight(const SceneView& scene, const Collision& collision,
+                                              TraceCounters& counters) noexcept {
+  if (collision.real) {
+    const float kept = visibility_factor(scene.visibility.weights, light_list_, ray_.t_far - collision.t_mm,
+                                         importance_at(scene.visibility.importance, collision.p_index));
+    light_transmittance_ *= 1.0f - kept * scene.medium.shadow_extinction;
+    if (light_transmittance_ < kRouletteTransmittance)
+      light_transmittance_ =
+          rng_.next() * kRouletteTransmittance < light_transmittance_ ? kRouletteTransmittance : 0.0f;
+    if (light_transmittance_ > 0) return fly_on(collision);
+  }
+  on_light_ray_ = false;
+  return end_shadow_ray(scene, light_transmittance_, counters);
 }
 
 CameraPath::Wait CameraPath::end() noexcept {
@@ -93,7 +142,10 @@ void CameraPath::weigh_shadow_ray(Vec3f transmittance) noexcept {
   first_light_.arriving *= transmittance;
 }
 
-CameraPath::Wait CameraPath::end_flight(const SceneView& scene, const Collision& collision) noexcept {
+CameraPath::Wait CameraPath::end_flight(const SceneView& scene, const Collision& collision,
+                                        TraceCounters& counters) noexcept {
+  if (on_light_ray_) return end_light_flight(scene, collision, counters);
+  if (collision.real && fades(scene, collision)) return fly_on(collision);
   if (depth_ > 0) {
     const Vec3f met = met_emitters(scene, collision);
     radiance_ += throughput_ * met;
@@ -164,7 +216,7 @@ CameraPath::Wait CameraPath::end_scattering(const SceneView& scene, const Scatte
   --light_samples_left_;
   if (cast(scene, scattering.light, scattering.toward_light, scattering.light_ray, counters)) {
     if (depth_ == 0) ray_.u_depth = first_.u_shadow_depth;
-    if (enters()) return Wait::kTransmittance;
+    if (enters()) return cross_shadow(scene);
     radiance_ += unshadowed_;
     if (scene.keeps_parts && depth_ == 0) add_first(first_light_.arriving);
   }
@@ -252,7 +304,7 @@ CameraPath::Wait CameraPath::next_light_sample(const SceneView& scene, TraceCoun
     const TrackRay ray = ray_from(scene, query_.p_index, matter_.p_world, light.wi, light.distance_mm);
     const ScatterParts h = kernel(scene).eval(light.wi);
     if (!cast(scene, light, {h.diffuse + h.specular + h.phase, h.pdf}, ray, counters)) continue;
-    if (enters()) return Wait::kTransmittance;
+    if (enters()) return cross_shadow(scene);
     radiance_ += unshadowed_;
     if (scene.keeps_parts && depth_ == 0) add_first(first_light_.arriving);
   }
@@ -304,13 +356,13 @@ CameraPath::Wait CameraPath::turn(const SceneView& scene, TraceCounters& counter
   hit_samples_ = static_cast<float>(light_samples(scene)) / share;
   if (!(max_component(throughput_) > 0) || !survives()) return end();
   ++depth_;
-  return scattered_out(scene) && !scene.matter_emits ? reach_lights(scene, counters) : fly(scene);
+  return scattered_out(scene) && !scene.matter_emits ? reach_lights(scene, counters) : fly(scene, counters);
 }
 
 /// After the last scattering it does not matter where a flight ends, but what reaches it: an estimate of the
 /// transmittance tells with less variance.
 CameraPath::Wait CameraPath::reach_lights(const SceneView& scene, TraceCounters& counters) noexcept {
-  if (meets_rect_) return fly(scene);  // light at its own distance takes a flight
+  if (meets_rect_) return fly(scene, counters);  // light at its own distance takes a flight
   const Vec3f met = weighted(scene, environment_hit(scene.lights, origin_world_, direction_world_));
   unshadowed_ = throughput_ * met;
   first_light_.arriving = met * first_light_.weight;

@@ -1,4 +1,6 @@
 #pragma once
+#include <vector>
+
 #include "film/film.h"
 #include "film/trace_counters.h"
 #include "integrator/primary_ray.h"
@@ -32,7 +34,7 @@ class CameraPath {
   const Vec3f& throughput() const noexcept { return throughput_; }
 
   /// Goes on from kFlight.
-  Wait end_flight(const SceneView& scene, const Collision& collision) noexcept;
+  Wait end_flight(const SceneView& scene, const Collision& collision, TraceCounters& counters) noexcept;
   /// Goes on from kTransmittance, with an unbiased estimate of it.
   Wait end_shadow_ray(const SceneView& scene, float transmittance, TraceCounters& counters) noexcept;
 
@@ -62,7 +64,11 @@ class CameraPath {
   }
   bool enters() const noexcept { return ray_.t_near < ray_.t_far; }
   TrackRay turned_ray() const noexcept;
-  Wait fly(const SceneView& scene) noexcept;
+  Wait fly(const SceneView& scene, TraceCounters& counters) noexcept;
+  bool fades(const SceneView& scene, const Collision& collision) noexcept;
+  Wait fly_on(const Collision& collision) noexcept;
+  Wait cross_shadow(const SceneView& scene) noexcept;
+  Wait end_light_flight(const SceneView& scene, const Collision& collision, TraceCounters& counters) noexcept;
   Wait end() noexcept;
   Vec3f weighted(const SceneView& scene, const LightHit& hit) const noexcept;
   Vec3f met_emitters(const SceneView& scene, const Collision& collision) const noexcept;
@@ -99,6 +105,11 @@ class CameraPath {
   int light_samples_left_ = 0;
   /// Light samples taken where the present direction was drawn, over the probability of following that.
   float hit_samples_ = 1;
+  SegmentListView eye_list_;   ///< what is important on the camera's ray
+  bool on_light_ray_ = false;  ///< whether the flight under way is along a shadow ray
+  float light_transmittance_ = 1;
+  SegmentListView light_list_;  ///< in light_segments_
+  std::vector<ImportanceSegment> light_segments_;
   Vec3f unshadowed_;            ///< radiance that the shadow ray's transmittance scales
   float first_unshadowed_ = 0;  ///< of the path's first shadow ray; 0 before that
   Vec3f radiance_;

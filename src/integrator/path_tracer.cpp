@@ -142,7 +142,7 @@ class LaneTracer {
     path.rng() = lanes_.stream(lane);
     const Wait wait = lanes_.is_shadow[lane]
                           ? path.end_shadow_ray(scene_, lanes_.transmittance[lane], counters_)
-                          : path.end_flight(scene_, lanes_.collision(lane, path.ray().t_near));
+                          : path.end_flight(scene_, lanes_.collision(lane, path.ray().t_near), counters_);
     --busy_lanes_;
     if (wait == Wait::kFlight || wait == Wait::kTransmittance) return put(lane, at, wait);
     if (wait == Wait::kScattering)
@@ -215,8 +215,8 @@ CameraPath::Wait track(const SceneView& scene, CameraPath::Wait wait, CameraPath
                        TrackingCounters& tracking, TraceCounters& counters) noexcept {
   const Medium& medium = scene.medium;
   if (wait == CameraPath::Wait::kFlight)
-    return path.end_flight(scene,
-                           sample_free_flight(scene.trackers, medium, path.ray(), path.rng(), tracking));
+    return path.end_flight(
+        scene, sample_free_flight(scene.trackers, medium, path.ray(), path.rng(), tracking), counters);
   return path.end_shadow_ray(
       scene, estimate_transmittance(scene.trackers, medium, path.ray(), path.rng(), tracking), counters);
 }
@@ -228,7 +228,7 @@ CameraPath::Wait track_rgb(const SceneView& scene, CameraPath::Wait wait, Camera
   if (wait == CameraPath::Wait::kFlight) {
     const RgbFlight flight = sample_rgb_flight(medium, path.ray(), path.throughput(), path.rng(), tracking);
     path.weigh_flight(flight.weight);
-    return path.end_flight(scene, flight.collision);
+    return path.end_flight(scene, flight.collision, counters);
   }
   path.weigh_shadow_ray(estimate_rgb_transmittance(medium, path.ray(), path.rng(), tracking));
   return path.end_shadow_ray(scene, 1, counters);

@@ -2,6 +2,7 @@
 #include <cstdint>
 
 #include "camera/camera.h"
+#include "visibility/importance.h"
 #include "light/lights_view.h"
 #include "material/material.h"
 #include "tracking/estimators.h"
@@ -43,6 +44,27 @@ struct IllustrationView {
   Vec3f contour_color{0};
 };
 
+/// What is known of the importance along the ray of every pixel's centre.
+struct PixelListsView {
+  struct Head {
+    std::size_t first;
+    std::int32_t count;
+    float entry, exit, total;
+  };
+  const Head* heads = nullptr;  ///< by pixel, row by row
+  const ImportanceSegment* pool = nullptr;
+};
+
+/// What hides the important fades (lerzer2025).
+struct VisibilityView {
+  bool on = false;
+  ImportanceView importance;
+  VisibilityWeights weights;
+  PixelListsView pixels;
+  VisibilityLights lights = VisibilityLights::kOff;
+  std::int32_t light_samples = 200;
+};
+
 struct VirtualLight;
 /// Virtual point lights (integrator/virtual_lights.h).
 struct VirtualLightsView {
@@ -67,6 +89,7 @@ struct SceneView {
   ScatteringView scattering;
   LabelsView labels;
   IllustrationView illustration;
+  VisibilityView visibility;
 
   LightsView lights;
   VirtualLightsView virtual_lights;  ///< what they give is added at a path's first scattering

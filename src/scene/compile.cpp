@@ -118,6 +118,8 @@ void CompiledScene::compile(SceneDescription description, bool everything) {
                            static_cast<float>(visible.radius_mm)};
   // What can fail comes first; from put_medium on, nothing does.
   Parts parts = compile_parts(description, everything);
+  std::vector<ImportanceRule> importance =
+      compile_importance(local, (parts.rule_volumes ? *parts.rule_volumes : *rule_volumes_).volumes());
   const CameraView camera =
       compile_camera(local.camera, sphere.center_mm, sphere.radius_mm, local.image.width, local.image.height);
   compile_lights(local, everything, camera, sphere);
@@ -126,6 +128,7 @@ void CompiledScene::compile(SceneDescription description, bool everything) {
   put_scattering(parts, description);
   put_illustration(description);
   put_image(description);
+  put_visibility(std::move(importance), local, !everything && same_importance(description, description_));
   put_integrator(local, sphere, !everything && same_light(description, description_));
   description_ = std::move(description);
 }
@@ -177,8 +180,10 @@ void CompiledScene::compile_lights(const SceneDescription& local, bool everythin
                                    const SceneSphere& sphere) {
   const EnvironmentDescription& environment = *local.environment;
   // Directions find light through the physical extinction, which is not what shadow rays meet then.
+  const bool other_shadows = local.material.self_occlusion < 1 ||
+                             (local.visibility && local.visibility->lights != VisibilityLights::kOff);
   const LightSampling sampling =
-      local.material.self_occlusion < 1 ? LightSampling::kLight : light_sampling(local.render.light_sampling);
+      other_shadows ? LightSampling::kLight : light_sampling(local.render.light_sampling);
   // The tables of the environment's picture are what takes long.
   const bool same_tables = !everything && sampling == view_.light_sampling &&
                            local.render.integrator == description_.render.integrator &&

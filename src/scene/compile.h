@@ -1,7 +1,9 @@
 #pragma once
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "accel/accelerator.h"
 #include "grid/value_range.h"
@@ -9,6 +11,7 @@
 #include "integrator/environment_guide.h"
 #include "integrator/scene_view.h"
 #include "integrator/virtual_lights.h"
+#include "integrator/visibility.h"
 #include "light/compile_lights.h"
 #include "scene/labels.h"
 #include "scene/materials.h"
@@ -62,6 +65,9 @@ class CompiledScene {
   void put_scattering(Parts& parts, const SceneDescription& description);
   void put_illustration(const SceneDescription& description);
   void put_image(const SceneDescription& description);
+  static std::vector<ImportanceRule> compile_importance(const SceneDescription& local,
+                                                        std::span<const RuleVolume> volumes);
+  void put_visibility(std::vector<ImportanceRule> importance, const SceneDescription& local, bool same_view);
   void put_integrator(const SceneDescription& local, const SceneSphere& sphere, bool same_light);
   void warn_of_values(const VolumeStatistics& statistics);
 
@@ -80,6 +86,8 @@ class CompiledScene {
   std::optional<Accelerator> accelerator_;
   std::optional<Lights> lights_;
   std::optional<TransferFunction> ramp_;  ///< of an illustration
+  std::vector<ImportanceRule> importance_;
+  std::optional<PixelLists> pixel_lists_;
   std::optional<EnvironmentGuide> environment_guide_;
   std::optional<VirtualLights> virtual_lights_;
   double majorant_build_ms_ = 0;

@@ -147,6 +147,10 @@ struct EnumWords<Integrator> {
                                                           "ar2t"};
 };
 template <>
+struct EnumWords<VisibilityLights> {
+  static constexpr std::array<std::string_view, 3> kWords{"off", "first", "all"};
+};
+template <>
 struct EnumWords<ToneCurve> {
   static constexpr std::array<std::string_view, 2> kWords{"filmic", "srgb"};
 };

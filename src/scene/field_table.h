@@ -4,6 +4,7 @@
 #include "scene/field_table_matter.h"
 #include "scene/field_table_rules.h"
 #include "scene/field_table_view.h"
+#include "scene/field_table_visibility.h"
 
 namespace voxlume {
 
@@ -193,6 +194,10 @@ void visit_fields(V&& visit, Struct<SceneDescription>) {
          .doc = "Toon or warm-cool shading with contours, in place of light.",
          .absent = "light transport"},
         &T::illustration);
+  visit({.key = "visibility",
+         .doc = "What is important is kept in view.",
+         .absent = "matter is as opaque as it is"},
+        &T::visibility);
   visit({.key = "lights", .doc = "Lights; [] is none.", .absent = "the default lights", .max_count = 256},
         &T::lights);
   visit({.key = "environment", .doc = "Light from everywhere.", .absent = "the default environment"},

@@ -23,6 +23,8 @@ SceneDescription moved_to_origin(SceneDescription scene, const Double3& origin_m
       move(light.target_mm, origin_mm);
     }
   }
+  if (scene.visibility)
+    for (ImportanceDescription& important : scene.visibility->important) move(important.center_mm, origin_mm);
   if (scene.clip) {
     for (double& x : scene.clip->x_mm) x -= origin_mm[0];
     for (double& y : scene.clip->y_mm) y -= origin_mm[1];

@@ -1,6 +1,7 @@
 #include "scene/tracking_choice.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "scene/field_info.h"
 #include "voxlume/error.h"
@@ -110,6 +111,13 @@ bool same_light(const SceneDescription& a, const SceneDescription& b) {
     return scene;
   };
   return of_light(a) == of_light(b);
+}
+
+bool same_importance(const SceneDescription& a, const SceneDescription& b) {
+  const auto all = [](const SceneDescription& s) {
+    return std::tie(s.visibility, s.proxies, s.camera, s.clip, s.image.width, s.image.height, s.render.seed);
+  };
+  return all(a) == all(b);
 }
 
 }  // namespace voxlume

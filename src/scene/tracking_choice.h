@@ -26,4 +26,7 @@ EnvironmentSamples environment_samples(const RenderDescription& render, LightSam
 /// and, unless lights are attached to it, the camera.
 bool same_light(const SceneDescription& a, const SceneDescription& b);
 
+/// Whether what is important lies on every pixel's ray where it did.
+bool same_importance(const SceneDescription& a, const SceneDescription& b);
+
 }  // namespace voxlume

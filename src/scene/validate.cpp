@@ -83,6 +83,24 @@ void check_illustration(const IllustrationDescription& illustration, const std::
       refuse(child_address(list, std::to_string(i)), "expected points sorted by value");
 }
 
+void check_importance(const ImportanceDescription& important, const std::string& where) {
+  const auto refuse_key = [&](const char* key, const char* why) { refuse(child_address(where, key), why); };
+  const auto check_range = [&](const std::optional<std::array<double, 2>>& range, const char* key) {
+    if (range && !((*range)[0] <= (*range)[1]))
+      refuse_key(key, "found a range that ends before it begins, expected lower <= upper");
+  };
+  check_range(important.range, "range");
+  check_range(important.along_range, "along_range");
+  if (important.along_range && important.along.empty())
+    refuse_key("along", "missing, expected the volume that along_range is of");
+  if (important.center_mm && important.radius_mm.has_value() == important.size_mm.has_value())
+    refuse_key("center_mm", "expected either radius_mm or size_mm with it");
+  if (!important.center_mm && (important.radius_mm || important.size_mm))
+    refuse_key("center_mm", "missing, expected the middle of the region");
+  if (!important.range && !important.along_range && !important.center_mm)
+    refuse(where, "says nothing, expected a range or a region");
+}
+
 void check_clip(const ClipDescription& clip, const std::string& where) {
   const auto check = [&](const std::array<double, 2>& range, const char* key) {
     if (!(range[0] < range[1])) {
@@ -168,6 +186,10 @@ void validate_scene(const SceneDescription& scene, const std::string& where) {
     }
   }
   if (scene.illustration) check_illustration(*scene.illustration, at("illustration"));
+  if (scene.visibility)
+    for (std::size_t i = 0; i < scene.visibility->important.size(); ++i)
+      check_importance(scene.visibility->important[i],
+                       child_address(child_address(at("visibility"), "important"), std::to_string(i)));
   check_camera(scene.camera, at("camera"));
   if (scene.clip) check_clip(*scene.clip, at("clip"));
   check_image(scene.image, at("image"));

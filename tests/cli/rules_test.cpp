@@ -55,6 +55,31 @@ class CliRules : public CliTest {
   }
 };
 
+TEST_F(CliRules, WhatIsImportantIsKeptInView) {
+  const std::vector<std::string> more{"--background", "0,0,0", "--save-scene", "kept.json"};
+  const auto with = [&](std::vector<std::string> flags) {
+    flags.insert(flags.end(), more.begin(), more.end());
+    return flags;
+  };
+  ASSERT_EQ(render("ball.nrrd", "plain.exr", more).code, 0);
+  const RunResult values =
+      render("ball.nrrd", "values.exr", with({"--important", "950:", "--visibility", "1,700,300,1"}));
+  ASSERT_EQ(values.code, 0) << values.err;
+  ASSERT_EQ(render("kept.json", "again.exr", {"--threads", "1"}).code, 0);
+  const RunResult labels =
+      render("ball.nrrd", "labels.exr",
+             with({"--important", "label:maps/organs.nrrd=2", "--visibility-lights", "all"}));
+  ASSERT_EQ(labels.code, 0) << labels.err;
+  const auto pixels = [&](const char* name) { return read_image(folder_ / name).rgba; };
+  EXPECT_NE(pixels("values.exr"), pixels("plain.exr"));
+  EXPECT_EQ(pixels("values.exr"), pixels("again.exr"));
+  EXPECT_NE(pixels("labels.exr"), pixels("plain.exr"));
+  EXPECT_NE(pixels("labels.exr"), pixels("values.exr"));
+  // Nothing there is important: nothing fades.
+  ASSERT_EQ(render("ball.nrrd", "none.exr", with({"--important", "5000:6000"})).code, 0);
+  EXPECT_EQ(pixels("none.exr"), pixels("plain.exr"));
+}
+
 TEST_F(CliRules, RenderProxiesRulesAndMaterials) {
   const RunResult r = render_scene(scene(), "o.exr", {"--stats", "stats.json"});
   ASSERT_EQ(r.code, 0) << r.err;

@@ -137,6 +137,14 @@ TEST_F(CliRefuses, Values) {
       flags({"--preset", "ct-bonr"}, "ct-bone"),
       flags({"--env", "none.exr"}, "none.exr"),
       flags({"--labels", "none.nrrd"}, "none.nrrd"),
+      flags({"--important", "300"}, "--important: found \"300\", expected LOWER:UPPER"),
+      flags({"--important", "300:200"}, "expected the lower end first"),
+      flags({"--important", "a:b"}, "--important: found \"a\", expected a number"),
+      flags({"--important", "label:7"}, "--important: found \"7\", expected label:FILE=A,B,..."),
+      flags({"--important", "label:none.nrrd=7"}, "none.nrrd"),
+      flags({"--visibility", "1,70,30"}, "--visibility: found \"1,70,30\", expected p,q,r,lambda"),
+      flags({"--visibility", "0,70,30,1"}, "--visibility: found 0"),
+      flags({"--visibility-lights", "last"}, "--visibility-lights: found \"last\", expected one of off"),
       flags({"--set", "/image/spp"}, "--set: found \"/image/spp\", expected ADDRESS=VALUE"),
       flags({"--set", "/image/ssp=3"}, "--set /image/ssp: unknown field \"ssp\"; did you mean \"spp\"?"),
       flags({"--set", "/lights=[{\"kind\":\"point\"}]"}, "/lights/0: missing key \"position_mm\""),
@@ -146,10 +154,6 @@ TEST_F(CliRefuses, Values) {
 TEST_F(CliRefuses, WhatIsNotBuiltYetByName) {
   expect_refused({
       flags({"--denoise", "blur"}, "found \"blur\", expected one of none, decoupled, svgf"),
-      flags({"--important", "100:200"}, "--important is not built yet"),
-      flags({"--visibility", "1,1,1,1"}, "--visibility is not built yet"),
-      flags({"--visibility-lights", "first"}, "--visibility-lights first is not built yet; available: off"),
-      flags({"--visibility-lights", "all"}, "--visibility-lights all is not built yet; available: off"),
       {{"view"}, "view is not built yet; available: render"},
       {{"view", "ball.nrrd", "--port", "8080"}, "view is not built yet"},
   });

@@ -65,6 +65,18 @@ inline SceneDescription full_scene() {
               Double3{0, 1, 0},          200.0, 0.5, 300.0, 3,   175.0};
   s.clip = ClipDescription{{-10, 1e30}, {-1e30, 20}, {0, 5}, true};
   s.image = {640, 480, 16, 2.5, 0.01, PixelFilter::kBox, 0.5, 1.25, ToneCurve::kSrgb, {"depth", "albedo"}};
+  ImportanceDescription important;
+  important.importance = 0.75;
+  important.volume = "data";
+  important.range = std::array<double, 2>{300, 1e12};
+  important.along = "steep";
+  important.along_range = std::array<double, 2>{0.5, 40};
+  important.center_mm = Double3{1, 2, 3};
+  important.radius_mm = 20;
+  ImportanceDescription box;
+  box.center_mm = Double3{0, 0, 0};
+  box.size_mm = Double3{10, 20, 30};
+  s.visibility = VisibilityDescription{{important, box}, 2, 50, 20, 0.5, VisibilityLights::kAll, 100, 32, 8};
   s.render.integrator = Integrator::kVplDvr;
   s.render.march_step_voxels = 1.5;
   s.render.virtual_lights = 64;
