@@ -1,14 +1,13 @@
+#include <cmath>
+
 #include "scene/compile.h"
-
-#include <algorithm>
-#include <limits>
-
+#include "scene/presets.h"
 #include "voxlume/error.h"
 
 namespace voxlume {
 namespace {
 
-/// The number of a volume that an importance names; -1 for none.
+/// The number of the volume of that name; throws at `where` if there is none.
 std::int32_t number_of(const std::string& name, std::span<const RuleVolume> volumes,
                        const std::string& where) {
   std::string known;
@@ -20,9 +19,8 @@ std::int32_t number_of(const std::string& name, std::span<const RuleVolume> volu
 }
 
 void put_range(const std::optional<std::array<double, 2>>& range, int i, ImportanceRule& rule) {
-  const double widest = std::numeric_limits<float>::max();
-  rule.lower[i] = range ? static_cast<float>(std::clamp((*range)[0], -widest, widest)) : -INFINITY;
-  rule.upper[i] = range ? static_cast<float>(std::clamp((*range)[1], -widest, widest)) : INFINITY;
+  rule.lower[i] = range ? static_cast<float>((*range)[0]) : -INFINITY;
+  rule.upper[i] = range ? static_cast<float>((*range)[1]) : INFINITY;
 }
 
 Vec3f to_float(const Double3& p) { return Vec3f(Vec3d(p[0], p[1], p[2])); }
@@ -42,14 +40,6 @@ ImportanceRule compiled(const ImportanceDescription& d, std::span<const RuleVolu
   if (d.size_mm)
     rule.box = {rule.center - to_float(*d.size_mm) * 0.5f, rule.center + to_float(*d.size_mm) * 0.5f};
   return rule;
-}
-
-/// Half the volume's longest side [mm], the unit of the weights.
-double half_longest_side(const Volume& volume) {
-  double longest = 0;
-  for (int a = 0; a < 3; ++a)
-    longest = std::max(longest, static_cast<double>(volume.size[a]) * volume.spacing_mm[a]);
-  return 0.5 * longest;
 }
 
 }  // namespace
@@ -81,7 +71,7 @@ void CompiledScene::put_visibility(std::vector<ImportanceRule> importance, const
   view.importance.rule_count = static_cast<std::int32_t>(importance_.size());
   const std::span<const RuleVolume> volumes = rule_volumes_->volumes();
   for (std::size_t i = 0; i < volumes.size(); ++i) view.importance.volumes[i] = volumes[i].view;
-  const double unit_mm = half_longest_side(volume_);
+  const double unit_mm = 0.5 * longest_side_mm(volume_);
   view.weights = {static_cast<float>(d.p), static_cast<float>(d.q / unit_mm),
                   static_cast<float>(d.r / unit_mm), static_cast<float>(d.lambda)};
   view.lights = d.lights;

@@ -81,7 +81,7 @@ void visit_fields(V&& visit, Struct<RenderDescription>) {
         &T::march_step_voxels);
   visit({.key = "virtual_lights",
          .doc = "Integrator vpl-dvr: light particles that are traced.",
-         .range = between(1, 65536)},
+         .range = between(1, 16384)},
         &T::virtual_lights);
   visit({.key = "virtual_light_radius",
          .doc = "Integrator vpl-dvr: virtual lights that are nearer count as this far, which keeps them from "

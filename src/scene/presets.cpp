@@ -119,12 +119,16 @@ const Preset& automatic_preset(const Volume& volume, const VolumeStatistics& sta
   return find_preset("generic");
 }
 
-double default_reference_length_mm(const Volume& volume, const VolumeStatistics& statistics) {
-  if (is_hounsfield(volume, statistics)) return 1;
+double longest_side_mm(const Volume& volume) {
   double longest = 0;
   for (int a = 0; a < 3; ++a)
     longest = std::max(longest, static_cast<double>(volume.size[a]) * volume.spacing_mm[a]);
-  return longest / 256;
+  return longest;
+}
+
+double default_reference_length_mm(const Volume& volume, const VolumeStatistics& statistics) {
+  if (is_hounsfield(volume, statistics)) return 1;
+  return longest_side_mm(volume) / 256;
 }
 
 }  // namespace voxlume

@@ -29,6 +29,9 @@ const Preset& automatic_preset(const Volume& volume, const VolumeStatistics& sta
 /// Whether the data is in Hounsfield units: its file says CT, or it says nothing and has air near -1000.
 bool is_hounsfield(const Volume& volume, const VolumeStatistics& statistics);
 
+/// The longest of the volume's sides, its outermost voxels whole.
+double longest_side_mm(const Volume& volume);
+
 /// The reference length opacities are drawn for when none is given [mm]: 1 for CT, else 1/256 of the volume's
 /// longest side.
 double default_reference_length_mm(const Volume& volume, const VolumeStatistics& statistics);

@@ -73,7 +73,6 @@ AcceleratorChoice accelerator_choice(const SceneDescription& scene, const GridVi
   return choice;
 }
 
-/// Throws where the trackers that a scene asks for do not go together.
 void check_trackers(const SceneDescription& scene) {
   const RenderDescription& render = scene.render;
   if (marches(render) && !(has_default_trackers(render) && render.extinction == Extinction::kSingle))

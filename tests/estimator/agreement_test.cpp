@@ -5,9 +5,7 @@
 #include <algorithm>
 
 #include "blob_scene.h"
-#include "image_io/image_io.h"
 #include "same_mean.h"
-#include "support/temporary_folder.h"
 
 namespace voxlume::test {
 namespace {
@@ -88,25 +86,6 @@ TEST(Agreement, VarianceGapOfTheEventChoiceIsThePredictedOne) {
       << "predicted gap " << predicted.mean() << ", measured minus predicted " << difference.mean();
   // The gap is large enough that the test would see a model without it.
   EXPECT_GT(predicted.mean(), 8 * difference.standard_error());
-}
-
-/// A dim sky with a small sun, as a picture; the file lives as long as the program.
-const std::string& sky_file() {
-  static const TemporaryFolder folder;
-  static const std::string path = [] {
-    Image sky(32, 16);
-    for (int y = 0; y < 16; ++y)
-      for (int x = 0; x < 32; ++x)
-        for (int c = 0; c < 4; ++c)
-          sky.pixel(x, y)[c] = c == 3 ? 1.0f : 0.1f * static_cast<float>(16 - y) / 16;
-    for (int y = 2; y < 7; ++y)
-      for (int x = 4; x < 10; ++x)
-        for (int c = 0; c < 3; ++c) sky.pixel(x, y)[c] = 8;
-    const std::string name = (folder / "sky.exr").string();
-    write_exr(sky, name);
-    return name;
-  }();
-  return path;
 }
 
 struct LightCase {

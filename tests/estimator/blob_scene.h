@@ -1,4 +1,6 @@
 #pragma once
+#include "image_io/image_io.h"
+#include "support/temporary_folder.h"
 #include "test_scene.h"
 
 namespace voxlume::test {
@@ -20,6 +22,25 @@ inline SceneDescription blob_scene() {
   scene.camera.elevation_deg = 15;
   scene.camera.zoom = 1.7;
   return scene;
+}
+
+/// A dim sky with a small sun, as a picture; the file lives as long as the program.
+inline const std::string& sky_file() {
+  static const TemporaryFolder folder;
+  static const std::string path = [] {
+    Image sky(32, 16);
+    for (int y = 0; y < 16; ++y)
+      for (int x = 0; x < 32; ++x)
+        for (int c = 0; c < 4; ++c)
+          sky.pixel(x, y)[c] = c == 3 ? 1.0f : 0.1f * static_cast<float>(16 - y) / 16;
+    for (int y = 2; y < 7; ++y)
+      for (int x = 4; x < 10; ++x)
+        for (int c = 0; c < 3; ++c) sky.pixel(x, y)[c] = 8;
+    const std::string name = (folder / "sky.exr").string();
+    write_exr(sky, name);
+    return name;
+  }();
+  return path;
 }
 
 inline LightDescription area_light() {

@@ -2,32 +2,12 @@
 #include <gtest/gtest.h>
 
 #include "blob_scene.h"
-#include "image_io/image_io.h"
 #include "integrator/environment_guide.h"
 #include "integrator/virtual_lights.h"
 #include "same_mean.h"
-#include "support/temporary_folder.h"
 
 namespace voxlume::test {
 namespace {
-
-/// A dim sky with a small sun behind the blobs.
-const std::string& sky_file() {
-  static const TemporaryFolder folder;
-  static const std::string path = [] {
-    Image sky(32, 16);
-    for (int y = 0; y < 16; ++y)
-      for (int x = 0; x < 32; ++x)
-        for (int c = 0; c < 4; ++c) sky.pixel(x, y)[c] = c == 3 ? 1.0f : 0.2f;
-    for (int y = 5; y < 9; ++y)
-      for (int x = 14; x < 19; ++x)
-        for (int c = 0; c < 3; ++c) sky.pixel(x, y)[c] = 12;
-    const std::string name = (folder / "sky.exr").string();
-    write_exr(sky, name);
-    return name;
-  }();
-  return path;
-}
 
 SceneDescription lit_blobs(Integrator integrator) {
   SceneDescription scene = blob_scene();
