@@ -61,17 +61,30 @@ class TileComparison {
     for (std::vector<float>& values : along_y_) values.resize(kTilePixels);
   }
 
+  // What the tile at (x, y) looks like, developed by develop(rgb).
+  template <class Develop>
+  void look_at(const Image& image, int x, int y, Develop develop, TileLook& look) {
+    load(image, x, y, develop);
+    blur(look);
+    find_features(look);
+  }
+
   // Raises the error of every pixel of the tile at (x, y) to that between the two pictures, developed by
   // develop(rgb).
   template <class Develop>
   void compare(const Image& image, const Image& reference, int x, int y, Develop develop, float* error_map) {
-    look_at(image, x, y, develop, look_);
     look_at(reference, x, y, develop, reference_look_);
+    compare(image, reference_look_, x, y, develop, error_map);
+  }
+  template <class Develop>
+  void compare(const Image& image, const TileLook& reference, int x, int y, Develop develop,
+               float* error_map) {
+    look_at(image, x, y, develop, look_);
     const int columns = std::min(kFlipTile, image.width - x), rows = std::min(kFlipTile, image.height - y);
     for (int row = 0; row < rows; ++row) {
       float* out = error_map + static_cast<std::size_t>(y + row) * image.width + x;
       for (int column = 0; column < columns; ++column) {
-        out[column] = std::max(out[column], error_at(row * kFlipTile + column));
+        out[column] = std::max(out[column], error_at(reference, row * kFlipTile + column));
       }
     }
   }
@@ -79,13 +92,6 @@ class TileComparison {
  private:
   std::vector<float> plane(int width) const {
     return std::vector<float>(static_cast<std::size_t>(width) * stride_);
-  }
-
-  template <class Develop>
-  void look_at(const Image& image, int x, int y, Develop develop, TileLook& look) {
-    load(image, x, y, develop);
-    blur(look);
-    find_features(look);
   }
 
   // The tile and its margin. Beyond the border the picture goes on as its last pixel.
@@ -143,14 +149,14 @@ class TileComparison {
   }
 
   // Section 4.3: the difference of features amplifies that of colours.
-  float error_at(int i) const {
-    const float distance = color_distance(look_.lab[i], reference_look_.lab[i]);
+  float error_at(const TileLook& reference, int i) const {
+    const float distance = color_distance(look_.lab[i], reference.lab[i]);
     const float knee = kColorKnee * largest_distance_;
     const float color_error =
         distance < knee ? distance * (kErrorAtKnee / knee)
                         : kErrorAtKnee + (1 - kErrorAtKnee) * (distance - knee) / (largest_distance_ - knee);
-    const float feature = std::max(std::abs(look_.edge[i] - reference_look_.edge[i]),
-                                   std::abs(look_.point[i] - reference_look_.point[i]));
+    const float feature =
+        std::max(std::abs(look_.edge[i] - reference.edge[i]), std::abs(look_.point[i] - reference.point[i]));
     const float feature_error = std::sqrt(feature / (116 * std::numbers::sqrt2_v<float>));
     return std::min(std::pow(color_error, 1 - feature_error), 1.0f);
   }
@@ -164,33 +170,53 @@ class TileComparison {
   TileLook look_, reference_look_;
 };
 
-// The largest error over the exposures [EV], or that of the values as they are when there is none.
-FlipError compare_tiles(const Image& image, const Image& reference, std::span<const double> exposures,
-                        double pixels_per_degree) {
-  check_pair(image, reference);
+void check_scale(double pixels_per_degree) {
   if (!(pixels_per_degree >= 1 && pixels_per_degree <= 1000)) {
     throw Error(ErrorCode::kBadParameter, "",
                 "found " + std::to_string(pixels_per_degree) + " pixels per degree, expected 1 to 1000");
   }
-  const FlipFilters filters = make_flip_filters(pixels_per_degree);
+}
+
+int tiles_along(int pixels) { return (pixels + kFlipTile - 1) / kFlipTile; }
+
+// Calls visit(comparison, number, x, y) for the tile at every (x, y), on all threads.
+template <class Visit>
+void for_each_tile(const Image& image, const FlipFilters& filters, Visit visit) {
   const float largest_distance = largest_color_distance();
-  FlipError error{image.width, image.height, std::vector<float>(image.pixel_count()), 0};
-  const int columns = (image.width + kFlipTile - 1) / kFlipTile;
-  const int rows = (image.height + kFlipTile - 1) / kFlipTile;
+  const int columns = tiles_along(image.width), rows = tiles_along(image.height);
   parallel_for(static_cast<std::int64_t>(columns) * rows, 1, [&](std::int64_t tile) {
     TileComparison comparison(filters, largest_distance);
-    const int x = static_cast<int>(tile % columns) * kFlipTile,
-              y = static_cast<int>(tile / columns) * kFlipTile;
-    if (exposures.empty()) comparison.compare(image, reference, x, y, shown, error.map.data());
-    for (const double ev : exposures) {
-      const auto develop = [scale = static_cast<float>(std::exp2(ev))](const float* rgb) {
-        return shown_exposed(rgb, scale);
-      };
-      comparison.compare(image, reference, x, y, develop, error.map.data());
-    }
+    visit(comparison, static_cast<std::size_t>(tile), static_cast<int>(tile % columns) * kFlipTile,
+          static_cast<int>(tile / columns) * kFlipTile);
   });
+}
+
+FlipError no_error(const Image& image) {
+  return {image.width, image.height, std::vector<float>(image.pixel_count()), 0};
+}
+
+void find_mean(FlipError& error) {
   for (const float value : error.map) error.mean += value;
   error.mean /= static_cast<double>(error.map.size());
+}
+
+// The largest error over the exposures [EV], or that of the values as they are when there is none.
+FlipError compare_tiles(const Image& image, const Image& reference, std::span<const double> exposures,
+                        double pixels_per_degree) {
+  check_pair(image, reference);
+  check_scale(pixels_per_degree);
+  FlipError error = no_error(image);
+  for_each_tile(image, make_flip_filters(pixels_per_degree),
+                [&](TileComparison& comparison, std::size_t, int x, int y) {
+                  if (exposures.empty()) comparison.compare(image, reference, x, y, shown, error.map.data());
+                  for (const double ev : exposures) {
+                    const auto develop = [scale = static_cast<float>(std::exp2(ev))](const float* rgb) {
+                      return shown_exposed(rgb, scale);
+                    };
+                    comparison.compare(image, reference, x, y, develop, error.map.data());
+                  }
+                });
+  find_mean(error);
   return error;
 }
 
@@ -205,6 +231,39 @@ float median(std::vector<float>& values) {
 
 FlipError flip(const Image& image, const Image& reference, double pixels_per_degree) {
   return compare_tiles(image, reference, {}, pixels_per_degree);
+}
+
+struct FlipReference::Looks {
+  int width, height;
+  FlipFilters filters;
+  std::vector<TileLook> tiles;
+};
+
+FlipReference::FlipReference(const Image& reference, double pixels_per_degree) {
+  check_picture(reference, "the reference");
+  check_scale(pixels_per_degree);
+  looks_ = std::make_unique<Looks>();
+  *looks_ = {reference.width, reference.height, make_flip_filters(pixels_per_degree), {}};
+  looks_->tiles.resize(static_cast<std::size_t>(tiles_along(reference.width)) *
+                       static_cast<std::size_t>(tiles_along(reference.height)));
+  for_each_tile(reference, looks_->filters, [&](TileComparison& comparison, std::size_t tile, int x, int y) {
+    comparison.look_at(reference, x, y, shown, looks_->tiles[tile]);
+  });
+}
+
+FlipReference::~FlipReference() = default;
+FlipReference::FlipReference(FlipReference&&) noexcept = default;
+FlipReference& FlipReference::operator=(FlipReference&&) noexcept = default;
+
+FlipError FlipReference::compare(const Image& image) const {
+  check_size(image, looks_->width, looks_->height);
+  check_picture(image, "the picture");
+  FlipError error = no_error(image);
+  for_each_tile(image, looks_->filters, [&](TileComparison& comparison, std::size_t tile, int x, int y) {
+    comparison.compare(image, looks_->tiles[tile], x, y, shown, error.map.data());
+  });
+  find_mean(error);
+  return error;
 }
 
 std::optional<FlipExposures> flip_exposures(const Image& reference) {

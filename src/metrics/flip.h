@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -25,6 +26,22 @@ struct FlipError {
 
 /// LDR-FLIP of what a display shows at EV 0: of the linear values clamped to [0,1]. Symmetric.
 FlipError flip(const Image& image, const Image& reference, double pixels_per_degree = kFlipPixelsPerDegree);
+
+/// The same for many pictures and one reference, whose look is found once.
+class FlipReference {
+ public:
+  explicit FlipReference(const Image& reference, double pixels_per_degree = kFlipPixelsPerDegree);
+  ~FlipReference();
+  FlipReference(FlipReference&&) noexcept;
+  FlipReference& operator=(FlipReference&&) noexcept;
+
+  /// flip(image, reference, pixels_per_degree), bit for bit; from any thread.
+  FlipError compare(const Image& image) const;
+
+ private:
+  struct Looks;
+  std::unique_ptr<Looks> looks_;
+};
 
 /// The exposures that HDR-FLIP looks at: `count` >= 1 of them, evenly spaced from start_ev to stop_ev
 /// [stops], both finite and start_ev <= stop_ev. One exposure is start_ev.

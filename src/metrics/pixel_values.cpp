@@ -10,8 +10,8 @@
 namespace voxlume {
 namespace {
 
-std::string size_text(const Image& image) {
-  return std::to_string(image.width) + " x " + std::to_string(image.height);
+std::string size_text(int width, int height) {
+  return std::to_string(width) + " x " + std::to_string(height);
 }
 
 }  // namespace
@@ -23,7 +23,8 @@ double pixel_value(float linear, PixelValues values) {
 void check_picture(const Image& image, const char* which) {
   if (image.width < 1 || image.height < 1) {
     throw Error(ErrorCode::kBadParameter, "",
-                std::string(which) + " is empty (" + size_text(image) + "); expected at least one pixel");
+                std::string(which) + " is empty (" + size_text(image.width, image.height) +
+                    "); expected at least one pixel");
   }
   for (std::size_t i = 0; i < image.pixel_count(); ++i) {
     for (int c = 0; c < 3; ++c) {
@@ -36,12 +37,15 @@ void check_picture(const Image& image, const char* which) {
   }
 }
 
+void check_size(const Image& image, int width, int height) {
+  if (image.width == width && image.height == height) return;
+  throw Error(ErrorCode::kBadParameter, "",
+              "sizes differ: " + size_text(image.width, image.height) + " and " + size_text(width, height) +
+                  "; expected equal sizes");
+}
+
 void check_pair(const Image& image, const Image& reference) {
-  if (image.width != reference.width || image.height != reference.height) {
-    throw Error(
-        ErrorCode::kBadParameter, "",
-        "sizes differ: " + size_text(image) + " and " + size_text(reference) + "; expected equal sizes");
-  }
+  check_size(image, reference.width, reference.height);
   check_picture(image, "the picture");
   check_picture(reference, "the reference");
 }

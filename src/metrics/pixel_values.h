@@ -17,6 +17,9 @@ double pixel_value(float linear, PixelValues values);
 /// the message calls it: "the picture".
 void check_picture(const Image& image, const char* which);
 
+/// Throws Error kBadParameter unless the picture is `width` x `height` pixels large.
+void check_size(const Image& image, int width, int height);
+
 /// Throws Error kBadParameter when the sizes differ, or as check_picture for either.
 void check_pair(const Image& image, const Image& reference);
 

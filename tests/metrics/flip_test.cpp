@@ -50,6 +50,18 @@ TEST(Flip, IdenticalIsZero) {
   EXPECT_EQ(flip_hdr(image, image)->mean, 0.0);
 }
 
+TEST(Flip, OfAReferenceThatIsKeptIsTheSame) {
+  const Image reference = drawing(150, 70);
+  const FlipReference kept(reference);
+  for (const unsigned seed : {1u, 2u}) {
+    const Image image = noise(150, 70, seed);
+    EXPECT_EQ(kept.compare(image).map, flip(image, reference).map);
+    EXPECT_EQ(kept.compare(image).mean, flip(image, reference).mean);
+  }
+  EXPECT_EQ(kept.compare(reference).mean, 0.0);
+  EXPECT_THROW(kept.compare(drawing(70, 150)), Error);
+}
+
 TEST(Flip, IsSymmetric) {
   const Image a = noise(70, 66, 1), b = drawing(70, 66);
   EXPECT_GT(flip(a, b).mean, 0.1);
