@@ -36,6 +36,7 @@ struct RenderStatistics {
   double total_s = 0;  ///< start of the program to this report
   int threads = 0;
   std::string simd;         ///< instruction set that traced: "scalar", ...
+  std::string integrator;   ///< as in the scene file: "path", ...
   double spp = 0;           ///< mean over pixels
   std::uint64_t paths = 0;  ///< camera samples, misses included
   std::uint64_t tracking_steps = 0;
@@ -43,6 +44,8 @@ struct RenderStatistics {
   std::uint64_t scatterings = 0;
   std::uint64_t majorant_violations = 0;
   double majorant_build_ms = 0;
+  double importance_list_s = 0;  ///< building the lists of what is important; 0: kept, or nothing is
+  std::uint64_t importance_list_bytes = 0;
   std::uint64_t peak_rss_bytes = 0;
   std::uint64_t nonfinite_samples = 0;
   double mean_luminance = 0;  ///< linear, whole image

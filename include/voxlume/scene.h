@@ -52,14 +52,17 @@ struct TransferPoint {
 /// A volume beside the main one that rules read: a file, or derived from another.
 enum class ProxyKind { kFile, kGradient, kSmoothed, kDistance };
 enum class Lookup { kLinear, kNearest };
+/// Where labels end: at the faces of voxels, or where a smooth field has it (grid/label_outline.h).
+enum class Outline { kVoxels, kSmooth };
 struct ProxyDescription {
   std::string name;  ///< what rules call it; neither "data" nor "opacity"
   ProxyKind kind = ProxyKind::kFile;
-  std::string path;                  ///< kFile: any volume file, on any grid
-  std::string of = "data";           ///< derived: the volume it is derived from
-  double sigma_mm = 1;               ///< kSmoothed: of the Gaussian; > 0
-  std::vector<std::int64_t> labels;  ///< kDistance: the labels that are inside
-  Lookup lookup = Lookup::kLinear;   ///< nearest: labels, whole numbers that are never interpolated
+  std::string path;                    ///< kFile: any volume file, on any grid
+  std::string of = "data";             ///< derived: the volume it is derived from
+  double sigma_mm = 1;                 ///< kSmoothed: of the Gaussian; > 0
+  std::vector<std::int64_t> labels;    ///< kDistance: the labels that are inside
+  Lookup lookup = Lookup::kLinear;     ///< nearest: labels, whole numbers that are never interpolated
+  Outline outline = Outline::kSmooth;  ///< nearest: where labels end
   friend bool operator==(const ProxyDescription&, const ProxyDescription&) = default;
 };
 
@@ -141,7 +144,7 @@ struct LabelsDescription {
   friend bool operator==(const LabelsDescription&, const LabelsDescription&) = default;
 };
 
-enum class Shading { kCoexistence, kExposureRender, kPhase, kBrdf };
+enum class Shading { kCoexistence, kExposureRender, kPhase, kBrdf, kBlinnPhong };
 /// Reciprocal: one BRDF that absorbs what its parts do not reflect. Particles: normalised lobes, all
 /// absorption in the colours (xu2025 section 3.2). Auto: particles where materials or rules ask for more than
 /// colours.
@@ -157,6 +160,8 @@ struct MaterialDescription {
   double anisotropy = 0;          ///< Henyey-Greenstein g in (-1, 1)
   double roughness = 0.4;         ///< GGX alpha = roughness^2; [0,1]
   double specular = 0.5;          ///< Fresnel F0 = 0.08 * specular; [0,1]; 0 leaves Lambert alone
+  double highlight = 1;           ///< blinn-phong: times the gradient of the extinction; >= 0
+  double shininess = 40;          ///< blinn-phong: exponent of the highlight; >= 0
   LobeModel lobes = LobeModel::kAuto;
   /// Multiplies the extinction that shadow rays meet, in (0, 1]; 1 is physical (xu2025 section 3.4).
   double self_occlusion = 1;
@@ -235,8 +240,8 @@ struct ClipDescription {
 
 /// What the user marks as important (lerzer2025 section 4.2): where all that is given holds.
 struct ImportanceDescription {
-  double importance = 1;        ///< [0,1]; where several hold, the greatest counts
-  std::string volume = "data";  ///< "data" or a proxy
+  double importance = 1;                             ///< [0,1]; where several hold, the greatest counts
+  std::string volume = "data";                       ///< "data" or a proxy
   std::optional<std::array<double, 2>> range;        ///< of the volume's values
   std::string along;                                 ///< 2-D: a second volume
   std::optional<std::array<double, 2>> along_range;  ///< of its values
@@ -249,8 +254,16 @@ struct ImportanceDescription {
 /// At which scatterings light rays are freed of what hides the important, too.
 enum class VisibilityLights { kOff, kFirst, kAll };
 
-/// What hides or clutters the important becomes transparent just enough (docs/visibility.md): mu_t is multiplied
-/// by p / (p + (1 - importance)^(2 lambda) h). Lengths in h are in halves of the volume's longest side.
+/// Whether importance is looked up in interpolated values, or is interpolated between the voxels': as it is,
+/// or after a mean of 3 x 3 x 3 voxels (lerzer2025 Fig. 11).
+enum class ImportanceLookup { kInterpolated, kPerVoxel, kSmoothed };
+/// Ray-march: the integrals of h, or sums over the steps, whose result depends on their length (lerzer2025
+/// eqs. 3 and 7).
+enum class ImportanceSums { kIntegral, kDiscrete };
+
+/// What hides or clutters the important becomes transparent just enough (docs/visibility.md): mu_t is
+/// multiplied by p / (p + (1 - importance)^(2 lambda) h). Lengths in h are in halves of the volume's longest
+/// side.
 struct VisibilityDescription {
   std::vector<ImportanceDescription> important;
   double p = 1;       ///< weight of what matter is; > 0
@@ -261,6 +274,8 @@ struct VisibilityDescription {
   int light_samples = 200;  ///< looks along a light ray
   int ray_samples = 48;     ///< looks of a pass along a pixel's ray
   int ray_passes = 16;
+  ImportanceLookup lookup = ImportanceLookup::kInterpolated;
+  ImportanceSums sums = ImportanceSums::kIntegral;
   friend bool operator==(const VisibilityDescription&, const VisibilityDescription&) = default;
 };
 
@@ -273,7 +288,7 @@ enum class FreeFlightSampling { kDelta, kDecomposition };
 enum class Extinction { kSingle, kRgb };
 /// How a picture is computed: by path tracing, or as other renderers do (docs/peers.md). Ar2t is path tracing
 /// with materials by opacity; resolve() writes those out.
-enum class Integrator { kPath, kExposureRender, kRmss, kVplDvr, kAr2t };
+enum class Integrator { kPath, kExposureRender, kRmss, kVplDvr, kAr2t, kRayMarch };
 enum class ToneCurve { kFilmic, kSrgb };
 
 /// The picture: its size, how long to work on it and how it is developed.
@@ -307,8 +322,9 @@ struct IllustrationDescription {
 /// How the light is computed.
 struct RenderDescription {
   Integrator integrator = Integrator::kPath;
-  double march_step_voxels = 3;       ///< of integrators that march: in edges of the smallest voxel side, > 0
-  int virtual_lights = 1024;          ///< vpl-dvr: light particles traced, each leaving one or more
+  double march_step_voxels = 3;  ///< of integrators that march: in edges of the smallest voxel side, > 0
+  bool march_jitter = true;      ///< ray-march: rays begin anywhere in the first step, else in its middle
+  int virtual_lights = 1024;     ///< vpl-dvr: light particles traced, each leaving one or more
   double virtual_light_radius = 0.05;  ///< vpl-dvr: nearer ones count as this far; of the visible radius, > 0
   std::uint64_t seed = 0;
   std::uint32_t frame = 0;

@@ -11,7 +11,8 @@ RuleBounds::RuleBounds(const GridView& main, int cell_voxels, CellOrder order,
     cells.complete = volume.covers_main && !volume.has_nonfinite;
     if (v == 0) continue;
     if (volume.view.nearest)
-      cells.sets = label_sets_over(main, cell_voxels, order, volume.view.grid);
+      cells.sets = label_sets_over(main, cell_voxels, order, volume.view.grid,
+                                   volume.view.leads ? Outline::kSmooth : Outline::kVoxels);
     else
       cells.ranges = value_ranges_over(main, cell_voxels, order, volume.view.grid);
   }

@@ -32,7 +32,7 @@ struct DenoiseFrame {
   /// A length that stands for the size of what is seen [mm]: the radius of the volume's bounding sphere.
   float size_mm = 1;
   Planes3 radiance;    ///< mean over all samples of what scattered: premultiplied by alpha; linear Rec. 709
-  Plane alpha;         ///< share of samples that scattered, [0,1]
+  Plane alpha;         ///< share of samples that scattered, or their mean opacity; [0,1]
   Planes3 background;  ///< what is behind, not multiplied by 1 - alpha
   Plane depth_mm;  ///< from the eye to the matter that stands for the pixel (xu2024 5.2); 0 where alpha is 0
   Planes3 normal;  ///< of the first scattering, LPS, mean over samples that scattered, not normalised

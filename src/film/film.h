@@ -12,14 +12,14 @@ namespace voxlume {
 /// What one camera sample contributes to its pixel.
 struct PixelSample {
   Vec3f radiance{};    ///< linear Rec. 709; includes the background unless that is transparent
-  float alpha = 0;     ///< 1 when the camera ray scattered, else 0
+  float alpha = 0;     ///< 1 when the camera ray scattered, else 0; a marched ray's opacity
   Vec3f albedo{};      ///< of the first scattering; ignored when alpha is 0, as are the next two
   Vec3f normal{};      ///< of the first scattering, LPS, unit length or zero
   float depth_mm = 0;  ///< from the eye to the first scattering
 };
 
-/// What a camera sample's radiance is made of: radiance = direct_diffuse + direct_specular + later, and
-/// direct = fx fl by channel (xu2024 eq. 8), where fl is what shadows and the choice of light make noisy.
+/// What a camera sample's radiance is made of: radiance = direct_diffuse + direct_specular + later + behind,
+/// and direct = fx fl by channel (xu2024 eq. 8), where fl is what shadows and the choice of light make noisy.
 /// Zeros for a sample that did not scatter.
 struct RadianceParts {
   /// How the first scattering would look without shadows (integrator/unshadowed.h): of high detail and little
@@ -28,6 +28,8 @@ struct RadianceParts {
   /// Light that the first scattering scatters to the eye. Zero in a channel without fx.
   Vec3f direct_diffuse{}, direct_specular{};
   Vec3f later{};  ///< emission, ambient light, light of later scatterings, and what has no fx
+  /// What the sample's radiance has beside that, from behind matter that it sees through in part.
+  Vec3f behind{};
   /// Whether the extinction at the first scattering is that of matter that stands for the pixel.
   bool dense = false;
 };
@@ -40,7 +42,7 @@ struct ClassSums {
 
 /// The samples of a pixel that scattered, in two classes (xu2024 section 5.1).
 struct PixelClasses {
-  Vec3d radiance{};              ///< sum over both classes
+  Vec3d radiance{};              ///< sum over both classes, without what is from behind
   double luminance_squared = 0;  ///< sum over both classes
   ClassSums classes[2];
   float dense_depth_mm = 0;   ///< least depth of a dense sample; 0 without one

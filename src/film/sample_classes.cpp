@@ -76,7 +76,7 @@ void Film::add_classes(int x, int y, std::span<const PixelSample> samples,
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (!usable(samples[i], parts[i])) continue;
     candidates.push_back({class_luminance(parts[i]), samples[i].depth_mm, i});
-    const Vec3f radiance = samples[i].radiance;
+    const Vec3f radiance = samples[i].radiance - parts[i].behind;
     const double y_luminance = luminance(Vec3d(radiance));
     pixel.radiance += Vec3d(radiance);
     pixel.luminance_squared += y_luminance * y_luminance;

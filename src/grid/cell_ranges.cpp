@@ -49,27 +49,60 @@ ValueRange range_of(const T* voxels, const GridView& grid, const VoxelBox& box) 
   return {static_cast<float>(least), static_cast<float>(greatest)};
 }
 
-}  // namespace
-
-std::vector<ValueRange> value_ranges_over(const GridView& main, int cell_voxels, CellOrder order,
-                                          const GridView& proxy) {
-  if (same_grid(main, proxy)) return build_value_ranges(proxy, cell_voxels, order).ranges;
+/// The ranges of the voxels that box_of(i, j, k) says are a cell's, each made what `of_range` makes of it.
+template <class BoxOf, class OfRange>
+std::vector<ValueRange> ranges_of_boxes(const CellLayout& layout, const GridView& proxy, BoxOf&& box_of,
+                                        OfRange&& of_range) {
   constexpr int kLanes = 8;
-  const CellLayout layout(main, cell_voxels, order);
-  const CellsInProxy cells(main, layout, proxy);
   std::vector<ValueRange> ranges(static_cast<std::size_t>(layout.place_count()), kNoValues);
   with_voxels(proxy.type, proxy.voxels, [&](const auto* voxels) {
     layout.each_run(
         [&](std::int32_t i, std::int32_t j, std::int32_t k, std::int32_t count, std::int64_t place) {
           for (std::int32_t x = 0; x < count; ++x) {
-            const VoxelBox box = cells.interpolated(i + x, j, k);
+            const VoxelBox box = box_of(i + x, j, k);
             if (box.empty()) continue;
-            ranges[place + x] = widened(proxy.size[0] < kLanes ? range_of<1>(voxels, proxy, box)
-                                                               : range_of<kLanes>(voxels, proxy, box));
+            ranges[place + x] = of_range(proxy.size[0] < kLanes ? range_of<1>(voxels, proxy, box)
+                                                                : range_of<kLanes>(voxels, proxy, box));
           }
         });
   });
   return ranges;
+}
+
+}  // namespace
+
+std::vector<ValueRange> value_ranges_over(const GridView& main, int cell_voxels, CellOrder order,
+                                          const GridView& proxy) {
+  if (same_grid(main, proxy)) return build_value_ranges(proxy, cell_voxels, order).ranges;
+  const CellLayout layout(main, cell_voxels, order);
+  const CellsInProxy cells(main, layout, proxy);
+  return ranges_of_boxes(
+      layout, proxy,
+      [&](std::int32_t i, std::int32_t j, std::int32_t k) { return cells.interpolated(i, j, k); }, widened);
+}
+
+std::vector<ValueRange> label_ranges_over(const GridView& main, int cell_voxels, CellOrder order,
+                                          const GridView& labels, Outline outline) {
+  const CellLayout layout(main, cell_voxels, order);
+  const CellsInProxy cells(main, layout, labels);
+  return ranges_of_boxes(
+      layout, labels,
+      [&](std::int32_t i, std::int32_t j, std::int32_t k) {
+        return outline == Outline::kSmooth ? cells.voted(i, j, k) : cells.nearest(i, j, k);
+      },
+      [](ValueRange range) { return range; });
+}
+
+std::vector<std::uint8_t> cells_beyond(const GridView& main, int cell_voxels, CellOrder order,
+                                       const GridView& proxy) {
+  const CellLayout layout(main, cell_voxels, order);
+  const CellsInProxy cells(main, layout, proxy);
+  std::vector<std::uint8_t> beyond(static_cast<std::size_t>(layout.place_count()), 1);
+  layout.each_run(
+      [&](std::int32_t i, std::int32_t j, std::int32_t k, std::int32_t count, std::int64_t place) {
+        for (std::int32_t x = 0; x < count; ++x) beyond[place + x] = cells.inside(i + x, j, k) ? 0 : 1;
+      });
+  return beyond;
 }
 
 }  // namespace voxlume

@@ -1,5 +1,6 @@
 #pragma once
 #include "grid/cell_layout.h"
+#include "grid/label_kernel.h"
 
 namespace voxlume {
 
@@ -31,6 +32,24 @@ class CellsInProxy {
                     const double end = std::clamp(upper, 0.0, n - 1.0);
                     last = static_cast<std::int32_t>(end);
                     if (end > last) ++last;
+                  });
+  }
+
+  /// Whether every point of the cell is inside the proxy, whatever rounding does.
+  bool inside(std::int32_t i, std::int32_t j, std::int32_t k) const {
+    const Box3d box = reach(i, j, k);
+    for (int a = 0; a < 3; ++a)
+      if (!(box.lower[a] >= -0.5 && box.upper[a] <= proxy_size_[a] - 0.5)) return false;
+    return true;
+  }
+
+  /// The voxels whose labels may win a vote (sample_outline) within the cell.
+  VoxelBox voted(std::int32_t i, std::int32_t j, std::int32_t k) const {
+    return voxels(i, j, k,
+                  [](double lower, double upper, std::int32_t n, std::int32_t& first, std::int32_t& last) {
+                    first = static_cast<std::int32_t>(std::clamp(lower + kLeastVote, 0.0, n - 1.0));
+                    last = static_cast<std::int32_t>(std::ceil(std::clamp(upper - kLeastVote, 0.0, n - 1.0)));
+                    last = std::max(first, last);
                   });
   }
 
@@ -72,8 +91,8 @@ class CellsInProxy {
     return of_proxy + proxy_from_world.vector(of_world);
   }
 
-  template <class Touched>
-  VoxelBox voxels(std::int32_t i, std::int32_t j, std::int32_t k, Touched&& touched) const {
+  /// The smallest box along the proxy's axes around the cell, and what rounding makes of its points.
+  Box3d reach(std::int32_t i, std::int32_t j, std::int32_t k) const {
     const std::int32_t cell[3] = {i, j, k};
     Vec3d center, half;
     for (int a = 0; a < 3; ++a) {
@@ -83,12 +102,18 @@ class CellsInProxy {
       half[a] = 0.5 * (end - begin);
     }
     const Vec3d middle = map_.point(center);
-    const Vec3d reach = absolute(map_.column_x) * half.x + absolute(map_.column_y) * half.y +
-                        absolute(map_.column_z) * half.z + slack_;
+    const Vec3d half_box = absolute(map_.column_x) * half.x + absolute(map_.column_y) * half.y +
+                           absolute(map_.column_z) * half.z + slack_;
+    return {middle - half_box, middle + half_box};
+  }
+
+  template <class Touched>
+  VoxelBox voxels(std::int32_t i, std::int32_t j, std::int32_t k, Touched&& touched) const {
+    const Box3d around = reach(i, j, k);
     VoxelBox box;
     for (int a = 0; a < 3; ++a) {
-      const double lower = std::max(middle[a] - reach[a], -0.5);
-      const double upper = std::min(middle[a] + reach[a], proxy_size_[a] - 0.5);
+      const double lower = std::max(around.lower[a], -0.5);
+      const double upper = std::min(around.upper[a], proxy_size_[a] - 0.5);
       if (!(lower <= upper)) return {{0, 0, 0}, {-1, -1, -1}};
       touched(lower, upper, proxy_size_[a], box.first[a], box.last[a]);
     }

@@ -108,7 +108,8 @@ class SetTable {
 
 }  // namespace
 
-LabelSets label_sets_over(const GridView& main, int cell_voxels, CellOrder order, const GridView& labels) {
+LabelSets label_sets_over(const GridView& main, int cell_voxels, CellOrder order, const GridView& labels,
+                          Outline outline) {
   constexpr std::int64_t kSlabBlocks = 16;
   const CellLayout layout(main, cell_voxels, order);
   const CellsInProxy cells(main, layout, labels);
@@ -125,7 +126,8 @@ LabelSets label_sets_over(const GridView& main, int cell_voxels, CellOrder order
       const auto visit = [&](std::int32_t i, std::int32_t j, std::int32_t k, std::int32_t count,
                              std::int64_t place) {
         for (std::int32_t x = 0; x < count; ++x) {
-          const VoxelBox box = cells.nearest(i + x, j, k);
+          const VoxelBox box =
+              outline == Outline::kSmooth ? cells.voted(i + x, j, k) : cells.nearest(i + x, j, k);
           if (!box.empty()) sets.set_of_cell[place + x] = table.id_of(collector.collect(voxels, labels, box));
         }
       };

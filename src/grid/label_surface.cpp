@@ -1,16 +1,13 @@
 #include "grid/label_surface.h"
 
 #include <cmath>
+#include <type_traits>
+
+#include "grid/label_kernel.h"
 
 namespace voxlume {
 namespace {
 
-/// The kernel along an axis is (1 - (t/reach)^2)^3 for |t| < reach [voxels]: much like a Gaussian of standard
-/// deviation reach/3, and it ends smoothly. Where voxels are longer along one axis than along others it
-/// reaches over fewer of them, so that it is rounder in space; over less than this the stairs would show,
-/// over more it would take too long.
-constexpr float kReach = 4.0f, kLeastReach = 2.5f, kMostReach = 5;
-constexpr int kMostTaps = 11;
 /// The kernel's integral over reach times its peak.
 constexpr float kArea = 32.0f / 35.0f;
 
@@ -18,8 +15,8 @@ constexpr float kArea = 32.0f / 35.0f;
 /// the voxels lie, and so the derivatives to 0.
 struct Taps {
   int count;
-  float weight[kMostTaps], slope[kMostTaps];
-  std::int64_t offset[kMostTaps];  ///< of the voxel, in memory
+  float weight[kMostLabelTaps], slope[kMostLabelTaps];
+  std::int64_t offset[kMostLabelTaps];  ///< of the voxel, in memory
 
   Taps(float p, float reach, std::int32_t size, std::int64_t stride) {
     const auto first = static_cast<std::int32_t>(std::ceil(p - reach));
@@ -40,12 +37,6 @@ struct Taps {
     }
   }
 };
-
-Vec3f kernel_reach(const GridView& grid) {
-  const Vec3f per_mm = grid.step_index;
-  const float mean = std::cbrt(per_mm.x * per_mm.y * per_mm.z);
-  return min(max(per_mm * (kReach / mean), Vec3f(kLeastReach)), Vec3f(kMostReach));
-}
 
 /// Gradient, by index, of the smoothed share of labels other than `own`.
 template <class T>
@@ -72,20 +63,17 @@ Vec3f share_gradient(const T* voxels, const Taps (&taps)[3], T own) noexcept {
 
 }  // namespace
 
-Vec3f label_normal(const GridView& labels, Vec3f p_index) noexcept {
+Vec3f label_normal(const GridView& labels, Vec3f p_index, float label) noexcept {
+  if (!(label == label)) return Vec3f(0);
   const Box3f box = labels.index_box();
   const Vec3f p = min(max(p_index, box.lower), box.upper);
   const std::int64_t stride[3] = {1, labels.stride_j, labels.stride_k};
-  std::int64_t nearest = 0;
-  for (int a = 0; a < 3; ++a)
-    nearest += static_cast<std::int64_t>(std::min(p[a] + 0.5f, labels.size[a] - 1.0f)) * stride[a];
-  const Vec3f reach = kernel_reach(labels);
+  const Vec3f reach = label_kernel_reach(labels);
   const Taps taps[3] = {{p.x, reach.x, labels.size[0], stride[0]},
                         {p.y, reach.y, labels.size[1], stride[1]},
                         {p.z, reach.z, labels.size[2], stride[2]}};
   const Vec3f gradient = with_voxels(labels.type, labels.voxels, [&](const auto* voxels) {
-    const auto own = voxels[nearest];
-    return own == own ? share_gradient(voxels, taps, own) : Vec3f(0);
+    return share_gradient(voxels, taps, static_cast<std::remove_cvref_t<decltype(*voxels)>>(label));
   });
   // Smoothed, a straight boundary is as steep as the kernel is narrow along its normal.
   const float steepness = length(gradient * reach) * kArea;

@@ -39,14 +39,20 @@ inline float sample_trilinear(const GridView& grid, Vec3f p_index) noexcept {
                      [&](const auto* voxels) { return interpolate(voxels, grid, p_index); });
 }
 
-/// The voxel nearest to p_index: what discrete data (labels) is looked up with.
-inline float sample_nearest(const GridView& grid, Vec3f p_index) noexcept {
+/// The place in memory of the voxel nearest to p_index.
+inline std::int64_t nearest_voxel(const GridView& grid, Vec3f p_index) noexcept {
   std::int64_t at = 0;
   const std::int64_t stride[3] = {1, grid.stride_j, grid.stride_k};
   for (int a = 0; a < 3; ++a) {
     const float p = std::clamp(p_index[a] + 0.5f, 0.0f, static_cast<float>(grid.size[a] - 1));
     at += static_cast<std::int64_t>(p) * stride[a];
   }
+  return at;
+}
+
+/// The voxel nearest to p_index: what discrete data (labels) is looked up with.
+inline float sample_nearest(const GridView& grid, Vec3f p_index) noexcept {
+  const std::int64_t at = nearest_voxel(grid, p_index);
   return with_voxels(grid.type, grid.voxels, [&](const auto* v) { return static_cast<float>(v[at]); });
 }
 

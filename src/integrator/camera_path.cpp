@@ -103,7 +103,7 @@ CameraPath::Wait CameraPath::cross_shadow(const SceneView& scene) noexcept {
   const VisibilityView& visibility = scene.visibility;
   const bool fades = visibility.on && (visibility.lights == VisibilityLights::kAll ||
                                        (visibility.lights == VisibilityLights::kFirst && depth_ == 0));
-  if (!fades) return Wait::kTransmittance;
+  if (!fades || !(max_component(unshadowed_) > 0)) return Wait::kTransmittance;
   light_list_ = find_light_importance(scene, ray_, rng_, light_segments_);
   if (!(light_list_.total > 0)) return Wait::kTransmittance;
   on_light_ray_ = true;
@@ -133,6 +133,7 @@ CameraPath::Wait CameraPath::end() noexcept {
 }
 
 void CameraPath::weigh_flight(Vec3f weight) noexcept {
+  if (on_light_ray_) return weigh_shadow_ray(weight);
   throughput_ *= weight;
   first_light_.weight *= weight;
 }

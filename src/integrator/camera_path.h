@@ -30,8 +30,8 @@ class CameraPath {
   void weigh_flight(Vec3f weight) noexcept;
   /// The same before end_shadow_ray, which then takes a transmittance of 1.
   void weigh_shadow_ray(Vec3f transmittance) noexcept;
-  /// What the path carries.
-  const Vec3f& throughput() const noexcept { return throughput_; }
+  /// What the path carries along the flight, which may be that of a shadow ray.
+  const Vec3f& carried() const noexcept { return on_light_ray_ ? unshadowed_ : throughput_; }
 
   /// Goes on from kFlight.
   Wait end_flight(const SceneView& scene, const Collision& collision, TraceCounters& counters) noexcept;

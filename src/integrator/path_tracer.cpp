@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "integrator/camera_path.h"
+#include "integrator/ray_march.h"
 #include "tracking/rgb_tracking.h"
 
 namespace voxlume {
@@ -226,7 +227,7 @@ CameraPath::Wait track_rgb(const SceneView& scene, CameraPath::Wait wait, Camera
                            TrackingCounters& tracking, TraceCounters& counters) noexcept {
   const Medium& medium = scene.medium;
   if (wait == CameraPath::Wait::kFlight) {
-    const RgbFlight flight = sample_rgb_flight(medium, path.ray(), path.throughput(), path.rng(), tracking);
+    const RgbFlight flight = sample_rgb_flight(medium, path.ray(), path.carried(), path.rng(), tracking);
     path.weigh_flight(flight.weight);
     return path.end_flight(scene, flight.collision, counters);
   }
@@ -234,11 +235,11 @@ CameraPath::Wait track_rgb(const SceneView& scene, CameraPath::Wait wait, Camera
   return path.end_shadow_ray(scene, 1, counters);
 }
 
-/// One path by scalar code.
-PixelSample trace_ray(const SceneView& scene, const PrimaryRay& primary, TraceCounters& counters,
-                      RadianceParts* parts) noexcept {
+/// One path, or one marched ray, by scalar code; `path` is begun anew.
+PixelSample trace_ray(const SceneView& scene, const PrimaryRay& primary, CameraPath& path,
+                      TraceCounters& counters, RadianceParts* parts) noexcept {
   using Wait = CameraPath::Wait;
-  CameraPath path;
+  if (scene.ray_march.on) return march_camera_ray(scene, primary, counters, parts);
   TrackingCounters tracking;
   Wait wait = path.begin(scene, primary, counters);
   for (;;) switch (wait) {
@@ -262,13 +263,16 @@ PixelSample trace_ray(const SceneView& scene, const PrimaryRay& primary, TraceCo
 
 PixelSample trace_camera_sample(const SceneView& scene, int x, int y, std::uint32_t sample,
                                 TraceCounters& counters, RadianceParts* parts) noexcept {
-  return trace_ray(scene, make_primary_ray(scene, x, y, sample), counters, parts);
+  CameraPath path;
+  return trace_ray(scene, make_primary_ray(scene, x, y, sample), path, counters, parts);
 }
 
 void trace_rays(const SceneView& scene, std::span<const PrimaryRay> rays, std::span<PixelSample> samples,
                 TraceCounters& counters) {
   if (scene.simd != SimdTarget::kScalar) return LaneTracer(scene, rays, samples, {}, counters).trace();
-  for (std::size_t i = 0; i < rays.size(); ++i) samples[i] = trace_ray(scene, rays[i], counters, nullptr);
+  CameraPath path;
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    samples[i] = trace_ray(scene, rays[i], path, counters, nullptr);
 }
 
 void trace_tile(const SceneView& scene, const TileRect& tile, int sample_begin, int sample_end,
@@ -277,11 +281,12 @@ void trace_tile(const SceneView& scene, const TileRect& tile, int sample_begin, 
     return LaneTracer(scene, TileRays(scene, tile, sample_begin, sample_end), samples, parts, counters)
         .trace();
   std::size_t next = 0;
+  CameraPath path;
   for (int pixel = 0; pixel < tile.pixel_count(); ++pixel) {
     const auto [x, y] = pixel_at(tile, pixel);
     for (int sample = sample_begin; sample < sample_end; ++sample, ++next)
-      samples[next] = trace_camera_sample(scene, x, y, static_cast<std::uint32_t>(sample), counters,
-                                          parts.empty() ? nullptr : &parts[next]);
+      samples[next] = trace_ray(scene, make_primary_ray(scene, x, y, static_cast<std::uint32_t>(sample)),
+                                path, counters, parts.empty() ? nullptr : &parts[next]);
   }
 }
 

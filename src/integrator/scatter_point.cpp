@@ -56,8 +56,33 @@ Vec3f data_normal(const SceneView& scene, const Classified& matter, Vec3f p_inde
       sample_gradient(surface.grid, surface.index_of(p_index)) * -surface.inverse_gradient_scale;
   if (matter.label_volume < 0) return of_data;
   const RuleVolumeView& labels = scene.medium.rules.volumes[matter.label_volume];
-  const Vec3f of_labels = label_normal(labels.grid, labels.index_of(p_index));
+  const Vec3f of_labels = label_normal(labels.grid, labels.index_of(p_index), look_up(labels, p_index));
   return of_labels + of_data * (1.0f - std::min(length(of_labels), 1.0f));
+}
+
+/// Minus the gradient of the extinction in LPS [1/mm^2], over a voxel on either side as sample_gradient.
+Vec3f extinction_fall(const Medium& medium, Vec3f p_index) noexcept {
+  const GridView& grid = medium.grid;
+  Vec3f along;
+  for (int a = 0; a < 3; ++a) {
+    Vec3f offset;
+    offset[a] = grid.step_index[a];
+    along[a] = (extinction_at(medium, p_index - offset) - extinction_at(medium, p_index + offset)) /
+               (2.0f * grid.step_mm);
+  }
+  return grid.world_from_index.vector(along * grid.step_index) / grid.step_mm;
+}
+
+/// The highlight where the extinction is mu_t [1/mm], and its normal. At faces it falls to 0 within a voxel.
+Highlight highlight_at(const SceneView& scene, Vec3f p_index, Vec3f p_world, float mu_t,
+                       Vec3f& normal) noexcept {
+  const GridView& grid = scene.medium.grid;
+  const Vec3f faces = face_normals(scene.clip_world, grid, p_index, p_world);
+  const Vec3f fall = extinction_fall(scene.medium, p_index) + faces * (0.5f * mu_t / grid.step_mm);
+  const float magnitude = length(fall);
+  if (!(magnitude > 0) || !std::isfinite(magnitude)) return {0, scene.scattering.shininess};
+  normal = fall / magnitude;
+  return {scene.scattering.highlight_mm2 * magnitude, scene.scattering.shininess};
 }
 
 ParticlePoint particles_of(const SceneView& scene, const Classified& matter,
@@ -93,7 +118,10 @@ MatterPoint matter_at(const SceneView& scene, Vec3f p_index, float value) noexce
   scatter.g = matter.number_or(Number::kAnisotropy, scattering.g);
   scatter.alpha = roughness >= 0 ? roughness * roughness : scattering.alpha;
   scatter.f0 = specular >= 0 ? kMostDielectricF0 * specular : scattering.f0;
-  if (scattering.shading != Shading::kPhase) {
+  if (scattering.shading == Shading::kBlinnPhong) {
+    point.highlight = highlight_at(scene, p_index, p_world, optics.mu_t, scatter.normal);
+    point.highlight.strength *= matter.number_or(Number::kSurfaceShare, 1);
+  } else if (scattering.shading != Shading::kPhase) {
     const Vec3f outward =
         data_normal(scene, matter, p_index) + face_normals(scene.clip_world, grid, p_index, p_world);
     const float magnitude = length(outward);
@@ -107,7 +135,8 @@ MatterPoint matter_at(const SceneView& scene, Vec3f p_index, float value) noexce
       scatter.p_brdf = share * matter.number_or(Number::kSurfaceShare, 1);
     }
   }
-  if (scattering.particles) point.particles = particles_of(scene, matter, scatter);
+  if (scattering.particles && scattering.shading != Shading::kBlinnPhong)
+    point.particles = particles_of(scene, matter, scatter);
   return point;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include "integrator/scene_view.h"
+#include "material/blinn_phong.h"
 #include "material/particles.h"
 #include "material/scatter.h"
 
@@ -9,6 +10,7 @@ namespace voxlume {
 struct MatterPoint {
   ScatterPoint scatter;     ///< surface share and normal included
   ParticlePoint particles;  ///< the same as particles, where the scene shades those
+  Highlight highlight;      ///< where the scene's shading is kBlinnPhong; scatter.p_brdf is 0 then
   Vec3f emission;           ///< L_e
   Vec3f p_world;            ///< LPS mm
 };

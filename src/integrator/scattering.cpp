@@ -37,13 +37,17 @@ Scattering scatter_at(const SceneView& scene, const ScatteringQuery& query) noex
 }
 
 ScatterKernel::Albedo ScatterKernel::albedo() const noexcept {
-  if (by_particles_) {
+  if (model_ == Model::kParticles) {
     const ParticlePoint& p = matter_.particles;
     const ParticleShares shares = particle_shares(p);
     const Vec3f diffuse = p.color * (shares.rest * (1 - particles_.fresnel) + shares.phase);
     return {diffuse, max(particle_albedo(p, wo_) - diffuse, Vec3f(0))};
   }
   const ScatterPoint& point = matter_.scatter;
+  if (model_ == Model::kBlinnPhong) {
+    const float reflected = matter_.highlight.strength * blinn_phong_albedo(matter_.highlight.shininess);
+    return {point.albedo, point.albedo * reflected};
+  }
   SurfaceAlbedo surface{Vec3f(0), 0};
   if (point.p_brdf > 0)
     surface = estimate_albedo(surface_lobe(point), std::min(std::abs(dot(point.normal, wo_)), 1.0f));
@@ -75,7 +79,7 @@ Scattering ScatteringBatch::at(const SceneView& scene, int i) const noexcept {
   const auto ray = [&](const Column3& direction, const Column<float>& near, const Column<float>& far) {
     return TrackRay{{vec(p_index), vec(direction)}, near[i], far[i]};
   };
-  return {{{vec(normal), p_brdf[i], vec(albedo), s.g, s.alpha, s.f0}, {}, vec(emission), vec(p_world)},
+  return {{{vec(normal), p_brdf[i], vec(albedo), s.g, s.alpha, s.f0}, {}, {}, vec(emission), vec(p_world)},
           surface_share[i],
           {specular[i], surface[i], any[i]},
           {vec(light_wi), light_mm[i], vec(light_radiance), light_pdf[i], light_delta[i] != 0},

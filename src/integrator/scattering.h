@@ -14,29 +14,35 @@ class ScatterKernel {
  public:
   /// `matter` must outlive this.
   ScatterKernel(const SceneView& scene, const MatterPoint& matter, Vec3f wo) noexcept
-      : matter_(matter), wo_(wo), by_particles_(scene.scattering.particles) {
-    if (by_particles_) {
+      : matter_(matter), wo_(wo), model_(model_of(scene)) {
+    if (model_ == Model::kParticles) {
       particles_ = particle_choice(matter.particles, wo);
       choice_ = {particles_.coat, particles_.diffuse, particles_.any};
     } else {
-      choice_ = scatter_choice(matter.scatter, wo);
+      choice_ = model_ == Model::kBlinnPhong ? blinn_phong_choice(matter.scatter, matter.highlight)
+                                             : scatter_choice(matter.scatter, wo);
     }
   }
   /// The same with a choice that was made before; particles make theirs again.
   ScatterKernel(const SceneView& scene, const MatterPoint& matter, const ScatterChoice& choice,
                 Vec3f wo) noexcept
-      : matter_(matter), wo_(wo), by_particles_(scene.scattering.particles), choice_(choice) {
-    if (by_particles_) particles_ = particle_choice(matter.particles, wo);
+      : matter_(matter), wo_(wo), model_(model_of(scene)), choice_(choice) {
+    if (model_ == Model::kParticles) particles_ = particle_choice(matter.particles, wo);
   }
 
   const ScatterChoice& choice() const noexcept { return choice_; }
   ScatterParts eval(Vec3f wi) const noexcept {
-    return by_particles_ ? eval_particles(matter_.particles, particles_, wo_, wi)
-                         : eval_scatter_parts(matter_.scatter, choice_, wo_, wi);
+    if (model_ == Model::kParticles) return eval_particles(matter_.particles, particles_, wo_, wi);
+    if (model_ == Model::kBlinnPhong)
+      return eval_blinn_phong(matter_.scatter, matter_.highlight, choice_, wo_, wi);
+    return eval_scatter_parts(matter_.scatter, choice_, wo_, wi);
   }
   ScatterSample sample(float u_lobe, float u0, float u1) const noexcept {
-    return by_particles_ ? sample_particles(matter_.particles, particles_, wo_, u_lobe, u0, u1)
-                         : sample_scatter(matter_.scatter, choice_, wo_, u_lobe, u0, u1);
+    if (model_ == Model::kParticles)
+      return sample_particles(matter_.particles, particles_, wo_, u_lobe, u0, u1);
+    if (model_ == Model::kBlinnPhong)
+      return sample_blinn_phong(matter_.scatter, matter_.highlight, choice_, wo_, u_lobe, u0, u1);
+    return sample_scatter(matter_.scatter, choice_, wo_, u_lobe, u0, u1);
   }
   /// What of light from all around comes back: phase function and diffuse lobe, and the rest.
   struct Albedo {
@@ -45,9 +51,15 @@ class ScatterKernel {
   Albedo albedo() const noexcept;
 
  private:
+  enum class Model { kReciprocal, kParticles, kBlinnPhong };
+  static Model model_of(const SceneView& scene) noexcept {
+    if (scene.scattering.shading == Shading::kBlinnPhong) return Model::kBlinnPhong;
+    return scene.scattering.particles ? Model::kParticles : Model::kReciprocal;
+  }
+
   const MatterPoint& matter_;
   Vec3f wo_;
-  bool by_particles_;
+  Model model_;
   ScatterChoice choice_;
   ParticleChoice particles_;
 };

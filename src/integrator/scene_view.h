@@ -2,12 +2,12 @@
 #include <cstdint>
 
 #include "camera/camera.h"
-#include "visibility/importance.h"
 #include "light/lights_view.h"
 #include "material/material.h"
 #include "tracking/estimators.h"
 #include "tracking/lanes.h"
 #include "tracking/medium.h"
+#include "visibility/importance.h"
 #include "voxlume/scene.h"
 
 namespace voxlume {
@@ -31,7 +31,9 @@ struct ScatteringView {
   bool opacity_modulated = true;
   float g = 0, alpha = 0.16f, f0 = 0.04f;
   float inverse_gradient_scale = 1;  ///< 1 / 99.9th percentile of the gradient magnitude [mm per data unit]
-  bool particles = false;            ///< normalised lobes (material/particles.h), else the reciprocal BRDF
+  /// Kind kBlinnPhong: the strength of highlights over the extinction's gradient [mm^2], and their exponent.
+  float highlight_mm2 = 0, shininess = 40;
+  bool particles = false;               ///< normalised lobes (material/particles.h), else the reciprocal BRDF
   const Material* materials = nullptr;  ///< the scene's own, then those that rules number from 0
 };
 
@@ -65,6 +67,13 @@ struct VisibilityView {
   std::int32_t light_samples = 200;
 };
 
+/// Steps along rays in place of flights (integrator/ray_march.h), trackers.step_mm long.
+struct RayMarchView {
+  bool on = false;
+  bool jitter = true;         ///< rays begin anywhere in the first step, else in its middle
+  bool counts_steps = false;  ///< importance is summed over steps: visibility.weights are per step, not per mm
+};
+
 struct VirtualLight;
 /// Virtual point lights (integrator/virtual_lights.h).
 struct VirtualLightsView {
@@ -90,10 +99,11 @@ struct SceneView {
   LabelsView labels;
   IllustrationView illustration;
   VisibilityView visibility;
+  RayMarchView ray_march;
 
   LightsView lights;
   VirtualLightsView virtual_lights;  ///< what they give is added at a path's first scattering
-  Vec3f ambient{0};  ///< radiance added unshadowed at every scattering (xu2024 6.1)
+  Vec3f ambient{0};                  ///< radiance added unshadowed at every scattering (xu2024 6.1)
   CameraView camera;
   BackgroundKind background = BackgroundKind::kColor;
   Vec3f background_color{0};

@@ -51,14 +51,14 @@ void fill_pixel(const Film& film, const SceneView& scene, float variance_share, 
                 DenoiseFrame& frame) {
   const PixelClasses& pixel = film.classes(x, y);
   const double samples = std::max(film.sample_count(x, y), 1u);
-  const double scattered = pixel.classes[0].count + pixel.classes[1].count, missed = samples - scattered;
+  const double alpha = film.alpha(x, y), missed = samples * (1 - alpha);
   const double luminance_sum = luminance(pixel.radiance);
   const double spread = pixel.luminance_squared - luminance_sum * luminance_sum / samples;
   frame.variance.at(x, y) =
       samples > 1 ? static_cast<float>(variance_share * std::max(0.0, spread) / (samples - 1) / samples)
                   : 0.0f;
   frame.samples.at(x, y) = static_cast<float>(film.sample_count(x, y));
-  frame.alpha.at(x, y) = static_cast<float>(scattered / samples);
+  frame.alpha.at(x, y) = static_cast<float>(alpha);
   frame.depth_mm.at(x, y) = pixel.dense_depth_mm > 0 ? pixel.dense_depth_mm : pixel.median_depth_mm;
   set(frame.radiance, x, y, Vec3f(pixel.radiance / samples));
   set(frame.normal, x, y, Vec3f(film.normal(x, y)));

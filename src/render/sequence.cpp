@@ -62,7 +62,9 @@ class SequenceLoop {
   void compile(int frame) {
     SceneDescription scene = session_.frame_description(frame);
     try {
-      session_.compile(std::move(scene));
+      session_.compile(std::move(scene), [&](double) {
+        if (options_.progress) options_.progress(progress(frame, {}));
+      });
     } catch (const Error& error) {
       throw Error(error.code(), error.where(), error.message() + " (frame " + std::to_string(frame) + ")");
     }
@@ -102,6 +104,8 @@ class SequenceLoop {
     if (options_.written) {
       RenderStatistics statistics = statistics_from(samples.state);
       statistics.load_s = compile_s;
+      statistics.importance_list_s = scene.importance_list_s();
+      statistics.importance_list_bytes = scene.importance_list_bytes();
       options_.written(frame, statistics);
     }
     return samples.status;

@@ -17,12 +17,12 @@ SceneDescription Session::frame_description(int frame) const {
   return resolve(scene_of_frame(description_, frame), volume_, statistics_);
 }
 
-void Session::compile(SceneDescription scene) {
+void Session::compile(SceneDescription scene, const ListProgress& progress) {
   scene.animation.reset();
   if (compiled_) {
-    compiled_->update(std::move(scene));
+    compiled_->update(std::move(scene), progress);
   } else {
-    compiled_.emplace(std::move(scene), volume_, statistics_);
+    compiled_.emplace(std::move(scene), volume_, statistics_, progress);
   }
 }
 

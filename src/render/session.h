@@ -23,8 +23,8 @@ class Session {
   SceneDescription frame_description(int frame) const;
 
   /// Makes `scene`, resolved and of this session's volume, what compiled() is; its animation is left out.
-  /// Throws Error: those of CompiledScene.
-  void compile(SceneDescription scene);
+  /// Throws Error: those of CompiledScene, whose `progress` this is.
+  void compile(SceneDescription scene, const ListProgress& progress = {});
   /// What compile() made last; it must have been called.
   const CompiledScene& compiled() const { return *compiled_; }
 

@@ -12,7 +12,8 @@ namespace voxlume {
 /// seed and version are the caller's.
 RenderStatistics statistics_from(const RenderState& state);
 
-/// The keys of `--stats`: the fields of RenderStatistics, and the rates steps_per_s and paths_per_s.
+/// The keys of `--stats`: the fields of RenderStatistics, bytes of lists as importance_list_mb, and the rates
+/// steps_per_s and paths_per_s.
 nlohmann::json to_json(const RenderStatistics& statistics);
 
 /// Largest resident set so far of this process, or of its largest finished child if that was larger.

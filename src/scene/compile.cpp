@@ -94,7 +94,8 @@ struct CompiledScene::Parts {
   std::optional<Materials> materials;
 };
 
-CompiledScene::CompiledScene(SceneDescription description, Volume volume, const VolumeStatistics& statistics)
+CompiledScene::CompiledScene(SceneDescription description, Volume volume, const VolumeStatistics& statistics,
+                             const ListProgress& progress)
     : volume_(std::move(volume)),
       origin_mm_(visible_sphere(volume_, std::nullopt).center_mm),
       statistics_{
@@ -102,24 +103,25 @@ CompiledScene::CompiledScene(SceneDescription description, Volume volume, const 
   if (!std::isfinite(statistics.lower) || !std::isfinite(statistics.upper))
     throw Error(ErrorCode::kUnsupported, description.volume.path,
                 "its values exceed what a 32-bit float holds, in which voxlume computes; rescale them");
-  compile(std::move(description), true);
+  compile(std::move(description), true, progress);
   warn_of_values(statistics);
 }
 
-void CompiledScene::update(SceneDescription description) {
+void CompiledScene::update(SceneDescription description, const ListProgress& progress) {
   description.volume = description_.volume;
-  compile(std::move(description), false);
+  compile(std::move(description), false, progress);
 }
 
-void CompiledScene::compile(SceneDescription description, bool everything) {
+void CompiledScene::compile(SceneDescription description, bool everything, const ListProgress& progress) {
   const SceneDescription local = moved_to_origin(description, origin_mm_);
   const BoundingSphere visible = visible_sphere(moved_to_origin(volume_, origin_mm_), local.clip);
   const SceneSphere sphere{Vec3f(Vec3d(visible.center_mm[0], visible.center_mm[1], visible.center_mm[2])),
                            static_cast<float>(visible.radius_mm)};
-  // What can fail comes first; from put_medium on, nothing does.
+  // What can fail comes first; from put_medium on, nothing does but for want of memory.
   Parts parts = compile_parts(description, everything);
-  std::vector<ImportanceRule> importance =
-      compile_importance(local, (parts.rule_volumes ? *parts.rule_volumes : *rule_volumes_).volumes());
+  std::optional<ImportanceField> importance =
+      compile_importance(local, (parts.rule_volumes ? *parts.rule_volumes : *rule_volumes_).volumes(),
+                         !everything && same_importance(description, description_));
   const CameraView camera =
       compile_camera(local.camera, sphere.center_mm, sphere.radius_mm, local.image.width, local.image.height);
   compile_lights(local, everything, camera, sphere);
@@ -128,7 +130,8 @@ void CompiledScene::compile(SceneDescription description, bool everything) {
   put_scattering(parts, description);
   put_illustration(description);
   put_image(description);
-  put_visibility(std::move(importance), local, !everything && same_importance(description, description_));
+  put_visibility(std::move(importance), local, !everything && same_pixel_lists(description, description_),
+                 progress);
   put_integrator(local, sphere, !everything && same_light(description, description_));
   description_ = std::move(description);
 }
@@ -145,6 +148,7 @@ CompiledScene::Parts CompiledScene::compile_parts(const SceneDescription& descri
     check_depth(parts.transfer->max_mu_t(), volume_);
   }
   const GridView grid = make_grid_view(volume_);
+  check_march_steps(render, grid);
   const AcceleratorChoice accelerator = accelerator_choice(description, grid);
   if (everything || accelerator_fields(render) != accelerator_fields(description_.render))
     parts.accelerator.emplace(grid, accelerator);
@@ -180,8 +184,9 @@ void CompiledScene::compile_lights(const SceneDescription& local, bool everythin
                                    const SceneSphere& sphere) {
   const EnvironmentDescription& environment = *local.environment;
   // Directions find light through the physical extinction, which is not what shadow rays meet then.
-  const bool other_shadows = local.material.self_occlusion < 1 ||
-                             (local.visibility && local.visibility->lights != VisibilityLights::kOff);
+  const bool other_shadows =
+      local.material.self_occlusion < 1 || (local.visibility && !local.visibility->important.empty() &&
+                                            local.visibility->lights != VisibilityLights::kOff);
   const LightSampling sampling =
       other_shadows ? LightSampling::kLight : light_sampling(local.render.light_sampling);
   // The tables of the environment's picture are what takes long.
@@ -233,6 +238,7 @@ void CompiledScene::put_medium(Parts& parts, const SceneDescription& local) {
   view_.medium.shadow_extinction = static_cast<float>(local.material.self_occlusion);
   view_.simd = simd_target(local.render.simd);
   view_.trackers = tracker_choice(local.render, view_.medium.grid);
+  view_.ray_march = ray_march_choice(local);
   view_.extinction = local.render.extinction;
   if (view_.extinction == Extinction::kRgb || !view_.trackers.is_default() ||
       !vector_tracker(view_.simd, view_.medium))
@@ -269,7 +275,8 @@ void CompiledScene::put_scattering(Parts& parts, const SceneDescription& descrip
                   (material.lobes == LobeModel::kAuto &&
                    (!description.materials.empty() || classifier_->gives_numbers()));
   out.materials = materials_->views();
-  view_.shades_singly = out.particles || classifier_->has_rules() || description.illustration;
+  view_.shades_singly = out.particles || classifier_->has_rules() || description.illustration ||
+                        material.shading == Shading::kBlinnPhong;
   out.shading = material.shading;
   out.surface_share = material.surface_share;
   out.gradient_factor = static_cast<float>(material.gradient_factor);
@@ -278,8 +285,12 @@ void CompiledScene::put_scattering(Parts& parts, const SceneDescription& descrip
   out.alpha = static_cast<float>(material.roughness * material.roughness);
   out.f0 = kMostDielectricF0 * static_cast<float>(material.specular);
   out.inverse_gradient_scale = 1.0f / statistics_.gradient_p999;
+  const float most_mu_t = max_mu_t();
+  out.highlight_mm2 =
+      most_mu_t > 0 ? static_cast<float>(material.highlight) * view_.medium.grid.step_mm / most_mu_t : 0.0f;
+  out.shininess = static_cast<float>(material.shininess);
   // What stands for a pixel has at least a quarter of the greatest extinction in the volume (xu2024 5.2).
-  view_.dense_mu_t = 0.25f * max_mu_t();
+  view_.dense_mu_t = 0.25f * most_mu_t;
 }
 
 void CompiledScene::put_illustration(const SceneDescription& description) {

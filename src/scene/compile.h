@@ -18,6 +18,7 @@
 #include "scene/rule_volumes.h"
 #include "transfer/extinction_color.h"
 #include "transfer/transfer_function.h"
+#include "visibility/importance_field.h"
 #include "voxlume/scene.h"
 #include "voxlume/volume.h"
 
@@ -29,7 +30,9 @@ class CompiledScene {
  public:
   /// `description` is resolved (scene/resolve.h); reads its environment picture and label volume.
   /// Throws Error with the scene path or file of what is wrong; kUnsupported for a choice that is not built.
-  CompiledScene(SceneDescription description, Volume volume, const VolumeStatistics& statistics);
+  /// `progress`, which may be empty and must not throw, hears of the lists of what is important.
+  CompiledScene(SceneDescription description, Volume volume, const VolumeStatistics& statistics,
+                const ListProgress& progress = {});
   CompiledScene(const CompiledScene&) = delete;
   CompiledScene& operator=(const CompiledScene&) = delete;
 
@@ -38,7 +41,7 @@ class CompiledScene {
   /// for another accelerator only. `description` is resolved; its volume counts as the one at hand. Nothing
   /// may be tracing, and copies of view() are out of date afterwards. Throws as the constructor does; the
   /// scene is then what it was, but for warnings().
-  void update(SceneDescription description);
+  void update(SceneDescription description, const ListProgress& progress = {});
 
   const SceneView& view() const { return view_; }
   const SceneDescription& description() const { return description_; }
@@ -51,11 +54,14 @@ class CompiledScene {
 
   /// Of the last compilation that changed the transfer function or the accelerator.
   double majorant_build_ms() const { return majorant_build_ms_; }
+  /// What the last compilation spent on the lists of what is important; 0 where it kept them.
+  double importance_list_s() const { return importance_list_s_; }
+  std::size_t importance_list_bytes() const { return pixel_lists_ ? pixel_lists_->bytes() : 0; }
 
  private:
   struct Parts;
 
-  void compile(SceneDescription description, bool everything);
+  void compile(SceneDescription description, bool everything, const ListProgress& progress);
   void compile_rules(const SceneDescription& description, bool everything, Parts& parts) const;
   float max_mu_t() const;
   Parts compile_parts(const SceneDescription& description, bool everything) const;
@@ -65,9 +71,10 @@ class CompiledScene {
   void put_scattering(Parts& parts, const SceneDescription& description);
   void put_illustration(const SceneDescription& description);
   void put_image(const SceneDescription& description);
-  static std::vector<ImportanceRule> compile_importance(const SceneDescription& local,
-                                                        std::span<const RuleVolume> volumes);
-  void put_visibility(std::vector<ImportanceRule> importance, const SceneDescription& local, bool same_view);
+  static std::optional<ImportanceField> compile_importance(const SceneDescription& local,
+                                                           std::span<const RuleVolume> volumes, bool same);
+  void put_visibility(std::optional<ImportanceField> importance, const SceneDescription& local,
+                      bool same_lists, const ListProgress& progress);
   void put_integrator(const SceneDescription& local, const SceneSphere& sphere, bool same_light);
   void warn_of_values(const VolumeStatistics& statistics);
 
@@ -86,11 +93,12 @@ class CompiledScene {
   std::optional<Accelerator> accelerator_;
   std::optional<Lights> lights_;
   std::optional<TransferFunction> ramp_;  ///< of an illustration
-  std::vector<ImportanceRule> importance_;
+  std::optional<ImportanceField> importance_;
   std::optional<PixelLists> pixel_lists_;
   std::optional<EnvironmentGuide> environment_guide_;
   std::optional<VirtualLights> virtual_lights_;
   double majorant_build_ms_ = 0;
+  double importance_list_s_ = 0;
   SceneView view_;
 };
 

@@ -1,5 +1,8 @@
+#include <fmt/format.h>
+
 #include <cmath>
 
+#include "base/memory.h"
 #include "scene/compile.h"
 #include "scene/presets.h"
 #include "voxlume/error.h"
@@ -42,41 +45,61 @@ ImportanceRule compiled(const ImportanceDescription& d, std::span<const RuleVolu
   return rule;
 }
 
-}  // namespace
-
-std::vector<ImportanceRule> CompiledScene::compile_importance(const SceneDescription& local,
-                                                              std::span<const RuleVolume> volumes) {
-  std::vector<ImportanceRule> out;
-  if (!local.visibility) return out;
-  if (local.render.extinction == Extinction::kRgb)
-    throw Error(ErrorCode::kUnsupported, "/visibility", "needs extinction single");
-  for (std::size_t i = 0; i < local.visibility->important.size(); ++i)
-    out.push_back(
-        compiled(local.visibility->important[i], volumes, "/visibility/important/" + std::to_string(i)));
-  return out;
+/// Throws unless there is memory for the lists of all pixels, as far as their number says.
+void check_list_memory(const ImageDescription& image) {
+  const double bytes = double{sizeof(PixelListsView::Head)} * image.width * image.height;
+  if (bytes > static_cast<double>(available_memory_bytes()))
+    throw Error(
+        ErrorCode::kOutOfMemory, "/image/width",
+        fmt::format("a picture of {} x {} with what is important needs {:.0f} MiB for its lists; render "
+                    "it smaller",
+                    image.width, image.height, bytes / (1 << 20)));
 }
 
-void CompiledScene::put_visibility(std::vector<ImportanceRule> importance, const SceneDescription& local,
-                                   bool same_view) {
+}  // namespace
+
+std::optional<ImportanceField> CompiledScene::compile_importance(const SceneDescription& local,
+                                                                 std::span<const RuleVolume> volumes,
+                                                                 bool same) {
+  if (!local.visibility) return {};
+  if (local.visibility->important.empty()) return {};
+  check_list_memory(local.image);
+  if (same) return {};
+  const VisibilityDescription& d = *local.visibility;
+  std::vector<ImportanceRule> rules;
+  for (std::size_t i = 0; i < d.important.size(); ++i)
+    rules.push_back(compiled(d.important[i], volumes, "/visibility/important/" + std::to_string(i)));
+  return ImportanceField(std::move(rules), volumes, d.lookup);
+}
+
+void CompiledScene::put_visibility(std::optional<ImportanceField> importance, const SceneDescription& local,
+                                   bool same_lists, const ListProgress& progress) {
   VisibilityView& view = view_.visibility;
   view = {};
+  importance_list_s_ = 0;
   if (!local.visibility || local.visibility->important.empty()) {
     pixel_lists_.reset();
+    importance_.reset();
     return;
   }
   const VisibilityDescription& d = *local.visibility;
   view.on = true;
-  importance_ = std::move(importance);
-  view.importance.rules = importance_.data();
-  view.importance.rule_count = static_cast<std::int32_t>(importance_.size());
-  const std::span<const RuleVolume> volumes = rule_volumes_->volumes();
-  for (std::size_t i = 0; i < volumes.size(); ++i) view.importance.volumes[i] = volumes[i].view;
-  const double unit_mm = 0.5 * longest_side_mm(volume_);
+  if (importance) importance_ = std::move(importance);
+  view.importance = importance_->view();
+  const double unit_mm = view_.ray_march.counts_steps ? 1 : 0.5 * longest_side_mm(volume_);
   view.weights = {static_cast<float>(d.p), static_cast<float>(d.q / unit_mm),
                   static_cast<float>(d.r / unit_mm), static_cast<float>(d.lambda)};
   view.lights = d.lights;
   view.light_samples = d.light_samples;
-  if (!same_view || !pixel_lists_) pixel_lists_.emplace(view_, ListRefinement{d.ray_samples, d.ray_passes});
+  if (view_.ray_march.on) {  // which finds what is important anew along every ray
+    pixel_lists_.reset();
+    return;
+  }
+  if (!same_lists || !pixel_lists_) {
+    pixel_lists_.reset();
+    pixel_lists_.emplace(view_, ListRefinement{d.ray_samples, d.ray_passes}, progress);
+    importance_list_s_ = pixel_lists_->seconds();
+  }
   view.pixels = pixel_lists_->view();
 }
 

@@ -75,7 +75,8 @@ struct EnumWords;
 
 template <>
 struct EnumWords<Shading> {
-  static constexpr std::array<std::string_view, 4> kWords{"coexistence", "er", "phase", "brdf"};
+  static constexpr std::array<std::string_view, 5> kWords{"coexistence", "er", "phase", "brdf",
+                                                          "blinn-phong"};
 };
 template <>
 struct EnumWords<LobeModel> {
@@ -88,6 +89,10 @@ struct EnumWords<ProxyKind> {
 template <>
 struct EnumWords<Lookup> {
   static constexpr std::array<std::string_view, 2> kWords{"linear", "nearest"};
+};
+template <>
+struct EnumWords<Outline> {
+  static constexpr std::array<std::string_view, 2> kWords{"voxels", "smooth"};
 };
 template <>
 struct EnumWords<RuleKind> {
@@ -143,12 +148,20 @@ struct EnumWords<Extinction> {
 };
 template <>
 struct EnumWords<Integrator> {
-  static constexpr std::array<std::string_view, 5> kWords{"path", "exposure-render", "rmss", "vpl-dvr",
-                                                          "ar2t"};
+  static constexpr std::array<std::string_view, 6> kWords{"path", "exposure-render", "rmss", "vpl-dvr",
+                                                          "ar2t", "ray-march"};
 };
 template <>
 struct EnumWords<VisibilityLights> {
   static constexpr std::array<std::string_view, 3> kWords{"off", "first", "all"};
+};
+template <>
+struct EnumWords<ImportanceLookup> {
+  static constexpr std::array<std::string_view, 3> kWords{"interpolated", "per-voxel", "smoothed"};
+};
+template <>
+struct EnumWords<ImportanceSums> {
+  static constexpr std::array<std::string_view, 2> kWords{"integral", "discrete"};
 };
 template <>
 struct EnumWords<ToneCurve> {

@@ -69,16 +69,23 @@ inline StructInfo struct_info(Struct<RenderDescription>) { return {"Render", "Ho
 template <class V>
 void visit_fields(V&& visit, Struct<RenderDescription>) {
   using T = RenderDescription;
-  visit({.key = "integrator",
-         .doc = "path: path tracing. As other renderers do, for comparison (docs/peers.md): exposure-render "
-                "marches rays and scatters once, rmss also remembers where the environment is visible from, "
-                "vpl-dvr adds virtual point lights, ar2t is path tracing with a material by opacity."},
-        &T::integrator);
+  visit(
+      {.key = "integrator",
+       .doc = "path: path tracing. As other renderers do, for comparison (docs/peers.md): exposure-render "
+              "marches rays and scatters once, rmss also remembers where the environment is visible from, "
+              "vpl-dvr adds virtual point lights, ar2t is path tracing with a material by opacity, ray-march "
+              "adds up steps along rays that scatter once."},
+      &T::integrator);
   visit({.key = "march_step_voxels",
          .doc = "Length of a step of the integrators that march.",
          .unit = "smallest voxel sides",
-         .range = between(0.05, 100)},
+         .range = between(0.001, 100)},
         &T::march_step_voxels);
+  visit(
+      {.key = "march_jitter",
+       .doc = "Integrator ray-march: rays begin anywhere in the first step; else in its middle, which leaves "
+              "bands in place of noise."},
+      &T::march_jitter);
   visit({.key = "virtual_lights",
          .doc = "Integrator vpl-dvr: light particles that are traced.",
          .range = between(1, 16384)},

@@ -60,7 +60,8 @@ template <class V>
 void visit_fields(V&& visit, Struct<MaterialDescription>) {
   using T = MaterialDescription;
   visit({.key = "shading",
-         .doc = "Surface and medium together (coexistence), one of the two by chance (er), or one alone."},
+         .doc = "Surface and medium together (coexistence), one of the two by chance (er), one alone, or the "
+                "phase function with highlights where the extinction changes (blinn-phong)."},
         &T::shading);
   visit({.key = "surface_share", .doc = "How the share of the surface follows from gradient and opacity."},
         &T::surface_share);
@@ -78,6 +79,15 @@ void visit_fields(V&& visit, Struct<MaterialDescription>) {
          .doc = "Fresnel F0 = 0.08 specular; 0 leaves a Lambert surface.",
          .range = between(0, 1)},
         &T::specular);
+  visit({.key = "highlight",
+         .doc = "Shading blinn-phong: strength of the highlights, times the change of the extinction over a "
+                "voxel as a share of the greatest extinction.",
+         .range = between(0, 1e3)},
+        &T::highlight);
+  visit({.key = "shininess",
+         .doc = "Shading blinn-phong: exponent of the highlights.",
+         .range = between(0, 1e4)},
+        &T::shininess);
   visit({.key = "lobes",
          .doc =
              "What scatters: one BRDF that absorbs what its parts do not reflect (reciprocal), or normalized "

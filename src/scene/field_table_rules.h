@@ -108,6 +108,10 @@ void visit_fields(V&& visit, Struct<ProxyDescription>) {
   visit({.key = "lookup",
          .doc = "linear interpolates between voxels; nearest takes whole numbers as they are (labels)."},
         &T::lookup);
+  visit({.key = "outline",
+         .doc = "nearest: where labels end. smooth: where a smooth field between the voxels has it, without "
+                "stairs; every voxel's centre keeps its label. voxels: at the voxels' faces."},
+        &T::outline);
 }
 
 inline StructInfo struct_info(Struct<RuleColumn>) {

@@ -50,7 +50,7 @@ template <class V>
 void visit_fields(V&& visit, Struct<VisibilityDescription>) {
   using T = VisibilityDescription;
   visit({.key = "important", .doc = "What is important.", .max_count = 64}, &T::important);
-  visit({.key = "p", .doc = "Weight of keeping matter as it is.", .range = above_to(0, 1e6)}, &T::p);
+  visit({.key = "p", .doc = "Weight of keeping matter as it is.", .range = between(1e-6, 1e6)}, &T::p);
   visit({.key = "q",
          .doc = "Weight of freeing the important from what is before it.",
          .unit = "1 / half the volume's longest side",
@@ -78,6 +78,14 @@ void visit_fields(V&& visit, Struct<VisibilityDescription>) {
          .doc = "Passes before the first sample; three of four look where they find out most.",
          .range = between(1, 4096)},
         &T::ray_passes);
+  visit({.key = "lookup",
+         .doc = "Importance of interpolated values, or interpolated between that of voxels, as other methods "
+                "do: as it is (per-voxel), or after a mean of 3 x 3 x 3 voxels (smoothed)."},
+        &T::lookup);
+  visit({.key = "sums",
+         .doc = "Integrator ray-march: h by integrals, or by sums over the steps, which change with their "
+                "length."},
+        &T::sums);
 }
 
 }  // namespace voxlume

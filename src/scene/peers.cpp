@@ -41,6 +41,7 @@ std::vector<OpacityMaterial> ar2t_materials() {
 
 void apply_integrator(SceneDescription& scene) {
   const Integrator integrator = scene.render.integrator;
+  if (integrator == Integrator::kRayMarch) scene.render.max_scatter = 1;
   if (integrator != Integrator::kExposureRender && integrator != Integrator::kRmss) return;
   scene.render.max_scatter = 1;
   if (scene.material.shading == Shading::kCoexistence) scene.material.shading = Shading::kExposureRender;

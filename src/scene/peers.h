@@ -3,8 +3,9 @@
 
 namespace voxlume {
 
-/// Sets what the scene's integrator demands of its other fields (docs/peers.md): exposure-render and rmss
-/// scatter once and have Exposure Render's shading in place of coexistence. Once more changes nothing.
+/// Sets what the scene's integrator demands of its other fields (docs/peers.md): ray-march scatters once,
+/// exposure-render and rmss do and have Exposure Render's shading in place of coexistence. Once more changes
+/// nothing.
 void apply_integrator(SceneDescription& scene);
 
 /// The scene with the rule that ar2t stands for, which gives materials by the opacity of the transfer

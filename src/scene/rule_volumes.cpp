@@ -182,7 +182,12 @@ void RuleVolumes::add(const ProxyDescription& proxy, Volume volume, const Double
     check_whole_numbers(view.grid, file);
     if (std::max(-out.values.lower, out.values.upper) > kMostLabel)
       throw Error(ErrorCode::kBadFormat, file,
-                  fmt::format("expected labels of at most {}, found {}", kMostLabel, out.values.upper));
+                  fmt::format("expected labels from {} to {}, found {}", -kMostLabel, kMostLabel,
+                              -out.values.lower > kMostLabel ? out.values.lower : out.values.upper));
+    if (proxy.outline == Outline::kSmooth) {
+      leads_.push_back(label_leads(view.grid));
+      view.leads = leads_.back().data();
+    }
   }
   volumes_.push_back(std::move(out));
 }

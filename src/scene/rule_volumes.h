@@ -32,7 +32,8 @@ class RuleVolumes {
  private:
   void add(const ProxyDescription& proxy, Volume volume, const Double3& origin_mm, const std::string& where);
 
-  std::vector<Volume> voxels_;  ///< of the proxies, which the views point to
+  std::vector<Volume> voxels_;                    ///< of the proxies, which the views point to
+  std::vector<std::vector<std::uint8_t>> leads_;  ///< of labels with a smooth outline
   std::vector<RuleVolume> volumes_;
   std::vector<std::string> warnings_;
 };

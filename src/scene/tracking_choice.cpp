@@ -1,8 +1,11 @@
 #include "scene/tracking_choice.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <tuple>
 
+#include "integrator/ray_march.h"
 #include "scene/field_info.h"
 #include "voxlume/error.h"
 
@@ -94,6 +97,26 @@ TrackerChoice tracker_choice(const RenderDescription& render, const GridView& gr
   return choice;
 }
 
+void check_march_steps(const RenderDescription& render, const GridView& grid) {
+  if (!marches(render)) return;
+  const Vec3f diagonal(static_cast<float>(grid.size[0]), static_cast<float>(grid.size[1]),
+                       static_cast<float>(grid.size[2]));
+  const double steps =
+      length(grid.world_from_index.vector(diagonal)) / (render.march_step_voxels * grid.step_mm);
+  if (steps > kMostMarchSteps)
+    throw Error(ErrorCode::kBadParameter, "/render/march_step_voxels",
+                fmt::format("{} makes {:.0f} steps from corner to corner of the volume; expected at most {}",
+                            render.march_step_voxels, steps, kMostMarchSteps));
+}
+
+RayMarchView ray_march_choice(const SceneDescription& scene) {
+  RayMarchView out;
+  out.on = scene.render.integrator == Integrator::kRayMarch;
+  out.jitter = scene.render.march_jitter;
+  out.counts_steps = out.on && scene.visibility && scene.visibility->sums == ImportanceSums::kDiscrete;
+  return out;
+}
+
 EnvironmentSamples environment_samples(const RenderDescription& render, LightSampling sampling) {
   if (render.integrator == Integrator::kExposureRender) return EnvironmentSamples::kUniform;
   return sampling == LightSampling::kMis && !marches(render) ? EnvironmentSamples::kExcess
@@ -113,8 +136,18 @@ bool same_light(const SceneDescription& a, const SceneDescription& b) {
 }
 
 bool same_importance(const SceneDescription& a, const SceneDescription& b) {
+  if (!a.visibility || !b.visibility) return false;
   const auto all = [](const SceneDescription& s) {
-    return std::tie(s.visibility, s.proxies, s.camera, s.clip, s.image.width, s.image.height, s.render.seed);
+    return std::tie(s.visibility->important, s.visibility->lookup, s.proxies);
+  };
+  return all(a) == all(b);
+}
+
+bool same_pixel_lists(const SceneDescription& a, const SceneDescription& b) {
+  if (!same_importance(a, b)) return false;
+  const auto all = [](const SceneDescription& s) {
+    return std::tie(s.visibility->ray_samples, s.visibility->ray_passes, s.camera, s.clip, s.image.width,
+                    s.image.height, s.render.seed);
   };
   return all(a) == all(b);
 }

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "grid/sample.h"
+#include "grid/label_outline.h"
 #include "transfer/transfer_view.h"
 #include "voxlume/scene.h"
 
@@ -95,7 +95,8 @@ struct RuleVolumeView {
   GridView grid;
   Affinef index_from_main;  ///< p_index of this volume from p_index of the main one
   bool is_main_grid = true;
-  bool nearest = false;  ///< labels: never interpolated
+  bool nearest = false;                 ///< labels: never interpolated
+  const std::uint8_t* leads = nullptr;  ///< of labels with a smooth outline (label_leads)
   /// The volume whose gradient is the normal of surfaces in this one: itself, or the one that it measures.
   std::int32_t surface_volume = 0;
   float inverse_gradient_scale = 1;  ///< 1 / its usual gradient magnitude [mm per data unit]
@@ -120,7 +121,8 @@ inline float look_up(const RuleVolumeView& volume, Vec3f p_main) noexcept {
   const Vec3f p = volume.index_of(p_main);
   if (!volume.is_main_grid && !volume.grid.index_box().contains(p))
     return std::numeric_limits<float>::quiet_NaN();
-  return volume.nearest ? sample_nearest(volume.grid, p) : sample_trilinear(volume.grid, p);
+  if (!volume.nearest) return sample_trilinear(volume.grid, p);
+  return volume.leads ? sample_outline(volume.grid, volume.leads, p) : sample_nearest(volume.grid, p);
 }
 
 /// The volumes' values at one point, each looked up when it is first asked for.

@@ -21,7 +21,9 @@ bool holds(const ImportanceView& view, const ImportanceRule& rule, Vec3f p_index
 
 }  // namespace
 
-float importance_at(const ImportanceView& view, Vec3f p_index) noexcept {
+float look_up_importance(const ImportanceView& view, Vec3f p_index) noexcept {
+  if (view.lookup != ImportanceLookup::kInterpolated)
+    return sample_trilinear(view.voxels, p_index) * kImportanceStep;
   float most = 0;
   for (std::int32_t i = 0; i < view.rule_count; ++i) {
     const ImportanceRule& rule = view.rules[i];

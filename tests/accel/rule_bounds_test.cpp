@@ -170,6 +170,13 @@ std::vector<Set> volume_sets() {
                     return i < 9 || rng.next() < 0.01f ? kNaN : 2500 * static_cast<double>(rng.next()) - 1000;
                   }))});
   sets.back().volumes.add("organs", label_volume<std::uint8_t>(kSize, 5, 0, 19), Lookup::kNearest);
+  sets.push_back({"smooth outlines", RuleVolumeSet(main())});
+  sets.back()
+      .volumes.add("organs", label_volume<std::uint8_t>(kSize, 7, 0, 20), Lookup::kNearest, Outline::kSmooth)
+      .add("atlas", label_volume<std::uint16_t>({40, 40, 40}, 600, 0, 21, shifted), Lookup::kNearest,
+           Outline::kSmooth)
+      .add("turned", label_volume<float>({21, 19, 17}, 5, 0.2, 22, turned), Lookup::kNearest,
+           Outline::kSmooth);
   return sets;
 }
 

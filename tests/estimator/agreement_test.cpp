@@ -140,6 +140,13 @@ INSTANTIATE_TEST_SUITE_P(
                                     s.lights = {area_light()};
                                     s.environment->intensity = 0.5;
                                   }},
+                        LightCase{"blinn_phong",
+                                  [](SceneDescription& s) {
+                                    s.lights = {area_light()};
+                                    s.environment->intensity = 0.5;
+                                    s.material.shading = Shading::kBlinnPhong;
+                                    s.material.highlight = 1;
+                                  }},
                         LightCase{"clip_blocks_light",
                                   [](SceneDescription& s) {
                                     s.lights = {area_light()};

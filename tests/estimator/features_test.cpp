@@ -2,6 +2,7 @@
 // the origin.
 #include <gtest/gtest.h>
 
+#include "integrator/scatter_point.h"
 #include "render/render_loop.h"
 #include "support/temporary_folder.h"
 #include "test_scene.h"
@@ -89,6 +90,30 @@ TEST(Features, AmbientAddsAlbedoTimesTheMeanRadianceAtEveryScattering) {
   const Moments with = estimate(scene, block(), 4000).total();
   // One scattering, the block is opaque: 0.5 * 0.6 more.
   EXPECT_NEAR(with.mean() - without, 0.3, 8 * with.standard_error());
+}
+
+TEST(Features, HighlightsFollowTheGradientOfTheExtinction) {
+  // mu_t rises along x to 3 / mm and stays there.
+  const Volume ramp = make_volume({40, 20, 20}, 2.0, [](Vec3d p) { return p.x; });
+  SceneDescription scene = front_view(8);
+  scene.transfer.points = {point(-30, 0, grey(0.5f)), point(0, 3, grey(0.5f)), point(40, 3, grey(0.5f))};
+  scene.material.shading = Shading::kBlinnPhong;
+  scene.material.highlight = 7;
+  const CompiledScene compiled = compile(scene, ramp);
+  const auto at = [&](float x_mm) {
+    const Vec3f p_index = compiled.view().medium.grid.index_from_world.point(Vec3f(x_mm, 0, 0));
+    return matter_at(compiled.view(), p_index, sample_trilinear(compiled.view().medium.grid, p_index));
+  };
+  const MatterPoint slope = at(-15), plateau = at(20);
+  EXPECT_NEAR(slope.scatter.normal.x, -1, 1e-4);
+  // 0.1 / mm^2 over 2 mm is 0.2 / mm of 3.
+  EXPECT_NEAR(slope.highlight.strength, 7 * 0.2 / 3, 1e-3);
+  EXPECT_EQ(slope.highlight.shininess, 40);
+  EXPECT_EQ(slope.scatter.p_brdf, 0);
+  EXPECT_LT(plateau.highlight.strength, 1e-3);
+  // At the volume's own face it is a surface that looks outward.
+  EXPECT_NEAR(at(39).scatter.normal.x, 1, 1e-3);
+  EXPECT_GT(at(39).highlight.strength, 0.5);
 }
 
 TEST(Features, ALensBlursWhatIsOutOfFocusAndKeepsWhatIsInFocus) {

@@ -104,6 +104,17 @@ INSTANTIATE_TEST_SUITE_P(
                                                s.transfer.points[1].emission = {{0.5f, 1, 2}};
                                                s.environment->intensity = 0.1;
                                              }},
+                                     LitCase{"visibility",
+                                             [](SceneDescription& s) {
+                                               s.lights = {area_light(), directional({0, 0, 1}, 1)};
+                                               s.environment->intensity = 0.4;
+                                               s.visibility.emplace();
+                                               ImportanceDescription dense;
+                                               dense.range = {85, 1000};
+                                               dense.importance = 0.9;
+                                               s.visibility->important = {dense};
+                                               s.visibility->lights = VisibilityLights::kAll;
+                                             }},
                                      LitCase{"particles",
                                              [](SceneDescription& s) {
                                                s.lights = {area_light()};

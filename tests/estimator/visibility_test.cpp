@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "blob_scene.h"
+#include "compiled_scene.h"
 #include "integrator/visibility.h"
+#include "marched_alpha.h"
 #include "same_mean.h"
 
 namespace voxlume::test {
@@ -25,17 +27,6 @@ SceneDescription hidden_blobs(VisibilityLights lights) {
   return scene;
 }
 
-struct Compiled {
-  Compiled(const SceneDescription& scene, const Volume& volume_)
-      : volume(volume_),
-        statistics(compute_statistics(make_grid_view(volume))),
-        compiled(resolve(as_tested(scene), volume, statistics), volume, statistics) {}
-  const SceneView& view() const { return compiled.view(); }
-  const Volume volume;
-  const VolumeStatistics statistics;
-  const CompiledScene compiled;
-};
-
 TEST(Visibility, WithoutAnythingImportantIsTheSamePicture) {
   SceneDescription plain = hidden_blobs(VisibilityLights::kAll);
   plain.visibility.reset();
@@ -50,34 +41,53 @@ TEST(Visibility, WithoutAnythingImportantIsTheSamePicture) {
               row_luminances(b.view(), 0, 32, y, 4, counters));
 }
 
-/// The fraction of the light of a pixel's ray that fading matter takes, by marching eq. 8 densely.
-double marched_alpha(const SceneView& scene, int x, int y) {
-  std::vector<ImportanceSegment> segments;
-  const SegmentListView list = find_importance(scene, x, y, {48, 1}, segments);
-  if (!(list.entry < list.exit)) return 0;
-  const CameraRay eye =
-      camera_ray(scene.camera, static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, 0.5f, 0.5f);
-  const IndexRay ray = to_index_ray(scene.medium.grid, eye.origin, eye.direction);
-  constexpr int kSteps = 20000;
-  const double h_mm = (double{list.exit} - list.entry) / kSteps;
-  std::vector<double> mu(kSteps), g(kSteps);
-  double total = 0;
-  for (int i = 0; i < kSteps; ++i) {
-    const auto t = static_cast<float>(list.entry + (i + 0.5) * h_mm);
-    const Vec3f p = ray.origin_index + ray.direction_index * t;
-    mu[i] = extinction_at(scene.medium, p);
-    g[i] = importance_at(scene.visibility.importance, p);
-    total += g[i] * g[i] * h_mm;
+bool same(const SegmentListView& a, const SegmentListView& b) {
+  const auto equal = [](const ImportanceSegment& s, const ImportanceSegment& t) {
+    return s.t == t.t && s.length == t.length && s.k == t.k && s.integral == t.integral;
+  };
+  return a.entry == b.entry && a.exit == b.exit && a.total == b.total &&
+         (!(a.total > 0) ||
+          std::equal(a.segments, a.segments + a.count, b.segments, b.segments + b.count, equal));
+}
+
+/// Cells that tell of importance without a look-up change no list, of whichever importances.
+TEST(Visibility, ListsAreTheSameWithoutCells) {
+  Volume small = two_blobs();
+  SceneDescription scenes[3];
+  for (SceneDescription& scene : scenes) scene = hidden_blobs(VisibilityLights::kFirst);
+  scenes[1].visibility->important = {values(40, 60, 0.5), values(85, 1000)};
+  scenes[1].visibility->important[1].center_mm = Double3{-7, 2, 3};
+  scenes[1].visibility->important[1].radius_mm = 5;
+  scenes[2].visibility->lookup = ImportanceLookup::kPerVoxel;
+  for (const SceneDescription& description : scenes) {
+    const Compiled compiled(description, small);
+    const SceneView& scene = compiled.view();
+    SceneView plain = scene;
+    plain.visibility.importance.cells = {};
+    const PixelLists lists(scene, {48, 8}), looked_up(plain, {48, 8});
+    std::vector<ImportanceSegment> segments, others;
+    const auto list_of = [](const PixelLists& from, std::size_t pixel) {
+      const PixelListsView::Head& head = from.view().heads[pixel];
+      return SegmentListView{from.view().pool + head.first, head.count, head.entry, head.exit, head.total};
+    };
+    int important = 0;
+    for (std::size_t pixel = 0; pixel < 32 * 32; ++pixel) {
+      ASSERT_TRUE(same(list_of(lists, pixel), list_of(looked_up, pixel))) << pixel;
+      important += list_of(lists, pixel).total > 0;
+    }
+    EXPECT_GT(important, 10);
+    EXPECT_LT(important, 1000);
+    Rng rng(3, 0, 0, 0);
+    for (int n = 0; n < 2000; ++n) {
+      const Vec3f from = Vec3f(rng.next(), rng.next(), rng.next()) * 31;
+      const Vec3f to = normalize(Vec3f(rng.next(), rng.next(), rng.next()) - Vec3f(0.5f));
+      const Vec3f world = scene.medium.grid.world_from_index.point(from);
+      const TrackRay ray =
+          visible_part(scene, to_index_ray(scene.medium.grid, world, to), world, to, 1e30f, false);
+      ASSERT_TRUE(same(find_light_importance(scene, ray, rng, segments),
+                       find_light_importance(plain, ray, rng, others)));
+    }
   }
-  const VisibilityWeights& w = scene.visibility.weights;
-  double before = 0, depth = 0;
-  for (int i = 0; i < kSteps; ++i) {
-    before += 0.5 * g[i] * g[i] * h_mm;
-    const double h = w.r_per_mm * before + w.q_per_mm * (total - before);
-    before += 0.5 * g[i] * g[i] * h_mm;
-    depth += mu[i] * w.p / (w.p + std::pow(1 - g[i], 2.0 * w.lambda) * h) * h_mm;
-  }
-  return 1 - std::exp(-depth);
 }
 
 TEST(Visibility, CameraRaysMeetWhatTheClosedFormLeaves) {
@@ -134,6 +144,81 @@ TEST(Visibility, NeverAddsMatter) {
       EXPECT_FLOAT_EQ(visibility_factor(w, list, list.entry, 0), w.p / (w.p + w.q_per_mm * list.total));
       EXPECT_FLOAT_EQ(visibility_factor(w, list, list.exit, 0), w.p / (w.p + w.r_per_mm * list.total));
     }
+}
+
+/// Importance interpolated between voxels is no step function; its lists stay short and know its integral.
+TEST(Visibility, ListsOfVoxelsAreShortAndKnowTheIntegral) {
+  for (const ImportanceLookup lookup : {ImportanceLookup::kPerVoxel, ImportanceLookup::kSmoothed}) {
+    SceneDescription description = hidden_blobs(VisibilityLights::kOff);
+    description.visibility->important = {values(30, 1000, 0.7), values(70, 1000)};
+    description.visibility->lookup = lookup;
+    const Compiled compiled(description, two_blobs());
+    const SceneView& scene = compiled.view();
+    std::vector<ImportanceSegment> segments;
+    double sum = 0, expected_sum = 0, worst = 0;
+    for (int y = 0; y < 32; ++y)
+      for (int x = 0; x < 32; ++x) {
+        const SegmentListView list = find_importance(scene, x, y, {48, 16}, segments);
+        if (!(list.total > 0)) continue;
+        EXPECT_LT(list.count, 150);
+        const CameraRay eye =
+            camera_ray(scene.camera, static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, 0.5f, 0.5f);
+        const IndexRay ray = to_index_ray(scene.medium.grid, eye.origin, eye.direction);
+        constexpr int kSteps = 4000;
+        const double h_mm = (double{list.exit} - list.entry) / kSteps;
+        double expected = 0;
+        for (int i = 0; i < kSteps; ++i) {
+          const Vec3f p =
+              ray.origin_index + ray.direction_index * static_cast<float>(list.entry + (i + 0.5) * h_mm);
+          const double g = importance_at(scene.visibility.importance, p);
+          expected += g * g * h_mm;
+        }
+        sum += list.total;
+        expected_sum += expected;
+        worst = std::max(worst, std::abs(list.total - expected));
+      }
+    EXPECT_GT(expected_sum, 100);
+    EXPECT_NEAR(sum / expected_sum, 1, 0.01);
+    EXPECT_LT(worst, 0.3);  // mm, a fifth of a voxel
+  }
+}
+
+/// Lists are built again for what they depend on alone.
+TEST(Visibility, ListsAreKeptWhereNothingMoves) {
+  const SceneDescription first = as_tested(hidden_blobs(VisibilityLights::kOff));
+  const Volume volume = two_blobs();
+  const VolumeStatistics statistics = compute_statistics(make_grid_view(volume));
+  CompiledScene compiled(resolve(first, volume, statistics), volume, statistics);
+  EXPECT_GT(compiled.importance_list_s(), 0);
+  EXPECT_GE(compiled.importance_list_bytes(), 32u * 32 * sizeof(PixelListsView::Head));
+  const auto rebuilt = [&](const SceneDescription& scene) {
+    int told = 0;
+    compiled.update(resolve(scene, volume, statistics), [&](double share) {
+      ++told;
+      EXPECT_GT(share, 0);
+      EXPECT_LE(share, 1);
+    });
+    EXPECT_EQ(told > 0, compiled.importance_list_s() > 0);
+    return told > 0;
+  };
+  SceneDescription scene = first;
+  EXPECT_FALSE(rebuilt(scene));
+  scene.visibility->q = 10;
+  scene.visibility->lights = VisibilityLights::kAll;
+  scene.transfer.density_scale = 2;
+  scene.environment->intensity = 3;
+  EXPECT_FALSE(rebuilt(scene));
+  scene.camera.azimuth_deg = 21;
+  EXPECT_TRUE(rebuilt(scene));
+  scene.visibility->important[0].range = {80, 1000};
+  EXPECT_TRUE(rebuilt(scene));
+  scene.visibility->lookup = ImportanceLookup::kSmoothed;
+  EXPECT_TRUE(rebuilt(scene));
+  EXPECT_FALSE(rebuilt(scene));
+  scene.visibility->important.clear();
+  EXPECT_FALSE(rebuilt(scene));
+  EXPECT_EQ(compiled.importance_list_bytes(), 0u);
+  EXPECT_TRUE(rebuilt(first));
 }
 
 TEST(Visibility, IsTheSameForAnyScale) {

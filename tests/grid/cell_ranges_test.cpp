@@ -6,7 +6,7 @@
 #include <set>
 
 #include "base/parallel.h"
-#include "grid/sample.h"
+#include "grid/label_outline.h"
 #include "support/volumes.h"
 
 namespace voxlume {
@@ -129,18 +129,20 @@ int expect_labels_hold(const Volume& main_volume, const Volume& label_volume, in
   const GridView main = make_grid_view(main_volume), labels = make_grid_view(label_volume);
   const Cells cells(main, edge, order);
   const LabelSets sets = label_sets_over(main, edge, order, labels);
+  const LabelSets smooth = label_sets_over(main, edge, order, labels, Outline::kSmooth);
+  const std::vector<std::uint8_t> leads = label_leads(labels);
   EXPECT_EQ(sets.set_of_cell.size(), cells.places);
   Rng rng(seed, 0, 0, 2);
   int inside = 0;
   for (int n = 0; n < draws; ++n) {
     const Vec3f p = point_of(main_volume, cells.edge, rng, n), q = on_proxy(main, labels, p);
     if (!labels.index_box().contains(q)) continue;
-    const float v = sample_nearest(labels, q);
-    if (std::isnan(v)) continue;
+    const float nearest = sample_nearest(labels, q), voted = sample_outline(labels, leads.data(), q);
     cells.each_with(p, [&](std::size_t place) {
-      ++inside;
-      const auto set = sets.set(sets.set_of_cell[place]);
-      EXPECT_TRUE(std::binary_search(set.begin(), set.end(), v)) << v;
+      inside += !std::isnan(nearest);
+      const auto set = sets.set(sets.set_of_cell[place]), voters = smooth.set(smooth.set_of_cell[place]);
+      EXPECT_TRUE(std::isnan(nearest) || std::binary_search(set.begin(), set.end(), nearest)) << nearest;
+      EXPECT_TRUE(std::isnan(voted) || std::binary_search(voters.begin(), voters.end(), voted)) << voted;
     });
     if (testing::Test::HasFailure()) break;
   }
@@ -319,6 +321,9 @@ void expect_exact_labels(Size3 size, int edge, int labels) {
   const GridView grid = make_grid_view(volume);
   const Cells cells(grid, edge, CellOrder::kCubes);
   const LabelSets sets = label_sets_over(grid, edge, CellOrder::kCubes, grid);
+  const LabelSets smooth = label_sets_over(grid, edge, CellOrder::kCubes, grid, Outline::kSmooth);
+  EXPECT_EQ(smooth.set_of_cell, sets.set_of_cell);
+  EXPECT_EQ(smooth.labels, sets.labels);
   for (int k = 0; k < cells.n[2]; ++k)
     for (int j = 0; j < cells.n[1]; ++j)
       for (int i = 0; i < cells.n[0]; ++i) {

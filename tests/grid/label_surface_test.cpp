@@ -15,6 +15,11 @@ using test::Size3;
 
 constexpr double kDegrees = 57.29577951308232;
 
+/// Of the nearest voxel's label.
+Vec3f normal_at(const GridView& labels, Vec3f p_index) {
+  return label_normal(labels, p_index, sample_nearest(labels, p_index));
+}
+
 Vec3d random_unit(Rng& rng) {
   for (;;) {
     const Vec3d v(2 * rng.next() - 1, 2 * rng.next() - 1, 2 * rng.next() - 1);
@@ -38,7 +43,7 @@ struct Errors {
   double mean() const { return sum / count; }
   void add(const GridView& labels, Vec3d p_world, Vec3d outward) {
     const Vec3f p = labels.index_from_world.point(Vec3f(p_world));
-    const Vec3d normal = Vec3d(label_normal(labels, p)) * (sample_nearest(labels, p) == 2 ? 1.0 : -1.0);
+    const Vec3d normal = Vec3d(normal_at(labels, p)) * (sample_nearest(labels, p) == 2 ? 1.0 : -1.0);
     const double size = length(normal);
     shortest = std::min(shortest, size);
     longest = std::max(longest, size);
@@ -127,13 +132,13 @@ TEST(LabelNormal, IsZeroWithinALabel) {
   Rng rng(1, 0, 0, 0);
   for (int n = 0; n < 1000; ++n) {
     const float y = 8 * rng.next() - 0.5f, z = 8 * rng.next() - 0.5f;
-    ASSERT_EQ(label_normal(labels, {6.4f * rng.next() - 0.5f, y, z}), Vec3f(0));
+    ASSERT_EQ(normal_at(labels, {6.4f * rng.next() - 0.5f, y, z}), Vec3f(0));
     // All others, as far as the kernel sees: their sum is nothing but rounding.
-    ASSERT_EQ(label_normal(labels, {19 - 5 * rng.next(), y, z}), Vec3f(0));
+    ASSERT_EQ(normal_at(labels, {19 - 5 * rng.next(), y, z}), Vec3f(0));
   }
   float last = 0;
   for (float x = 6; x < 9.4f; x += 0.1f) {
-    const Vec3f normal = label_normal(labels, {x, 3.7f, 4.1f});
+    const Vec3f normal = normal_at(labels, {x, 3.7f, 4.1f});
     EXPECT_GE(normal.x, last);
     EXPECT_NEAR(normal.y, 0, 1e-5);
     last = normal.x;
@@ -154,7 +159,7 @@ TEST(LabelNormal, IsContinuousButForTheLabel) {
     float last_label = -1;
     for (int n = 0; n <= kSteps; ++n) {
       const Vec3f p(begin + (end - begin) * (static_cast<double>(n) / kSteps));
-      const Vec3f normal = label_normal(labels, p);
+      const Vec3f normal = normal_at(labels, p);
       const float label = sample_nearest(labels, p);
       if (label == last_label) {
         ++compared;
@@ -172,22 +177,22 @@ TEST(LabelNormal, BeyondTheVolumeTheBorderGoesOn) {
   const Volume volume = make_volume<std::uint8_t>({6, 1, 2}, [](auto i, auto, auto) { return i > 2; });
   const GridView labels = make_grid_view(volume);
   for (const float y : {-0.5f, 0.0f, 0.5f}) {
-    const Vec3f normal = label_normal(labels, {2.4f, y, 0.7f});
+    const Vec3f normal = normal_at(labels, {2.4f, y, 0.7f});
     EXPECT_GT(normal.x, 0.95f);
     EXPECT_NEAR(normal.y, 0, 1e-5);
     EXPECT_NEAR(normal.z, 0, 1e-5);
   }
-  EXPECT_EQ(label_normal(labels, {-40, 0, 0}), label_normal(labels, {-0.5f, 0, 0}));
+  EXPECT_EQ(normal_at(labels, {-40, 0, 0}), normal_at(labels, {-0.5f, 0, 0}));
   const Volume one = noise_volume<double>({1, 1, 1}, 4);
-  EXPECT_EQ(label_normal(make_grid_view(one), {0.2f, 0, 0}), Vec3f(0));
+  EXPECT_EQ(normal_at(make_grid_view(one), {0.2f, 0, 0}), Vec3f(0));
 }
 
 TEST(LabelNormal, NaNHasNoSurface) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const Volume volume = make_volume<float>({9, 9, 9}, [&](auto i, auto, auto) { return i < 4 ? nan : 3.0f; });
   const GridView labels = make_grid_view(volume);
-  EXPECT_EQ(label_normal(labels, {3.2f, 4, 4}), Vec3f(0));
-  EXPECT_LT(label_normal(labels, {3.6f, 4, 4}).x, -0.95f);
+  EXPECT_EQ(normal_at(labels, {3.2f, 4, 4}), Vec3f(0));
+  EXPECT_LT(normal_at(labels, {3.6f, 4, 4}).x, -0.95f);
 }
 
 }  // namespace

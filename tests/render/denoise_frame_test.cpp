@@ -15,8 +15,9 @@ struct Rendered {
 };
 
 /// A ball before a grey background, lit by an environment and an area light.
-Rendered render(int spp) {
+Rendered render(int spp, Integrator integrator = Integrator::kPath) {
   SceneDescription scene = dark_scene(kEdge, kEdge);
+  scene.render.integrator = integrator;
   scene.environment->intensity = 0.7;
   scene.background->color = grey(0.2f);
   LightDescription area;
@@ -41,9 +42,9 @@ Rendered render(int spp) {
 
 /// One class at one sample, and any number of classes of any: with no filter in between, the parts are the
 /// input.
-TEST(DenoiseFrame, ItsClassesMakeUpItsRadiance) {
-  for (const int spp : {1, 2, 30, 100}) {
-    const Rendered r = render(spp);
+void expect_whole(Integrator integrator, std::initializer_list<int> counts) {
+  for (const int spp : counts) {
+    const Rendered r = render(spp, integrator);
     int two = 0;
     for (int y = 0; y < kEdge; ++y) {
       for (int x = 0; x < kEdge; ++x) {
@@ -61,14 +62,19 @@ TEST(DenoiseFrame, ItsClassesMakeUpItsRadiance) {
         two += (*r.frame.classes)[1].count.at(x, y) > 0;
       }
     }
-    if (spp > 1) {
+    if (spp > 1 && integrator == Integrator::kPath) {
       EXPECT_GT(two, 5) << spp << " spp";
     }
   }
 }
 
-TEST(DenoiseFrame, MatterOverBackgroundIsThePicture) {
-  const Rendered r = render(16);
+TEST(DenoiseFrame, ItsClassesMakeUpItsRadiance) {
+  expect_whole(Integrator::kPath, {1, 2, 30, 100});
+  expect_whole(Integrator::kRayMarch, {1, 4});
+}
+
+void expect_picture(Integrator integrator) {
+  const Rendered r = render(16, integrator);
   const Image image = compose_picture(r.frame, {r.frame.radiance, r.frame.alpha}, false);
   for (int y = 0; y < kEdge; ++y) {
     for (int x = 0; x < kEdge; ++x) {
@@ -76,8 +82,14 @@ TEST(DenoiseFrame, MatterOverBackgroundIsThePicture) {
       for (int c = 0; c < 3; ++c) ASSERT_NEAR(image.pixel(x, y)[c], mean[c], 1e-5) << x << ' ' << y;
       EXPECT_EQ(image.pixel(x, y)[3], 1);
       EXPECT_NEAR(r.frame.background[0].at(x, y), 0.2f, 1e-5) << "matter stays out of it";
+      EXPECT_EQ(r.frame.alpha.at(x, y), static_cast<float>(r.film.alpha(x, y)));
     }
   }
+}
+
+TEST(DenoiseFrame, MatterOverBackgroundIsThePicture) {
+  expect_picture(Integrator::kPath);
+  expect_picture(Integrator::kRayMarch);  // whose samples are matter in part
 }
 
 TEST(DenoiseFrame, VarianceIsThatOfTheMean) {

@@ -69,9 +69,10 @@ TEST(Statistics, HoldsEveryKey) {
   const test::TemporaryFolder folder;
   write_statistics(statistics, folder / "stats.json");
   const auto json = nlohmann::json::parse(test::read_bytes(folder / "stats.json"));
-  for (const char* key : {"wall_s", "load_s", "total_s", "threads", "simd", "spp", "paths", "tracking_steps",
-                          "steps_per_s", "paths_per_s", "majorant_build_ms", "peak_rss_bytes",
-                          "nonfinite_samples", "mean_luminance", "seed", "version"}) {
+  for (const char* key :
+       {"wall_s", "load_s", "total_s", "threads", "simd", "spp", "paths", "tracking_steps", "steps_per_s",
+        "paths_per_s", "majorant_build_ms", "importance_list_s", "importance_list_mb", "peak_rss_bytes",
+        "nonfinite_samples", "mean_luminance", "seed", "version"}) {
     EXPECT_TRUE(json.contains(key)) << key;
   }
   EXPECT_EQ(json["wall_s"], 2.0);

@@ -45,6 +45,14 @@ TEST(Peers, ExposureRenderAndRmssScatterOnceByItsShading) {
   }
 }
 
+TEST(Peers, RayMarchScattersOnceByTheScenesShading) {
+  SceneDescription scene = scene_of(Integrator::kRayMarch);
+  SceneDescription expected = scene;
+  expected.render.max_scatter = 1;
+  apply_integrator(scene);
+  EXPECT_EQ(scene, expected);
+}
+
 TEST(Peers, PathAndVplKeepWhatIsAsked) {
   for (const Integrator integrator : {Integrator::kPath, Integrator::kVplDvr}) {
     const SceneDescription scene = scene_of(integrator);
@@ -154,7 +162,8 @@ TEST(Peers, Ar2tIsRefusedWhereItMeansNothing) {
 TEST(Peers, ThatMarchAreRefusedWithOtherTrackers) {
   const Volume volume = ramp();
   const VolumeStatistics statistics = compute_statistics(make_grid_view(volume));
-  for (const Integrator integrator : {Integrator::kExposureRender, Integrator::kRmss, Integrator::kVplDvr}) {
+  for (const Integrator integrator :
+       {Integrator::kExposureRender, Integrator::kRmss, Integrator::kVplDvr, Integrator::kRayMarch}) {
     SceneDescription scene = scene_of(integrator);
     scene.render.extinction = Extinction::kRgb;
     EXPECT_THROW(CompiledScene(resolve(scene, volume, statistics), volume, statistics), Error);
@@ -162,6 +171,51 @@ TEST(Peers, ThatMarchAreRefusedWithOtherTrackers) {
     scene.render.transmittance = TransmittanceEstimator::kResidual;
     EXPECT_THROW(CompiledScene(resolve(scene, volume, statistics), volume, statistics), Error);
   }
+}
+
+TEST(Peers, ThatMarchAreRefusedWithMillionsOfSteps) {
+  test::Placement place;
+  place.spacing_mm = {1, 1, 1e-4};
+  const Volume volume = test::make_volume<std::int16_t>(
+      {21, 20, 20}, [](auto i, auto, auto) { return 20 * i; }, place);
+  const VolumeStatistics statistics = compute_statistics(make_grid_view(volume));
+  SceneDescription scene = scene_of(Integrator::kRayMarch);
+  scene.render.march_step_voxels = 0.2;
+  try {
+    const CompiledScene compiled(resolve(scene, volume, statistics), volume, statistics);
+    ADD_FAILURE() << "29 mm in steps of 0.2e-4 mm";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.where(), "/render/march_step_voxels");
+    EXPECT_THAT(e.what(), HasSubstr("at most 1000000"));
+  }
+  scene.render.march_step_voxels = 0.5;
+  CompiledScene compiled(resolve(scene, volume, statistics), volume, statistics);
+  EXPECT_TRUE(compiled.view().ray_march.on);
+}
+
+TEST(Peers, RayMarchNeedsNoListsAndLeavesPathTracingIts) {
+  const Volume volume = ramp();
+  const VolumeStatistics statistics = compute_statistics(make_grid_view(volume));
+  SceneDescription scene = scene_of(Integrator::kRayMarch);
+  scene.image.width = scene.image.height = 8;
+  scene.visibility.emplace();
+  ImportanceDescription important;
+  important.range = {100, 200};
+  scene.visibility->important = {important};
+  scene.visibility->sums = ImportanceSums::kDiscrete;
+  CompiledScene compiled(resolve(scene, volume, statistics), volume, statistics);
+  const SceneView& view = compiled.view();
+  EXPECT_TRUE(view.visibility.on);
+  EXPECT_EQ(view.visibility.pixels.heads, nullptr);
+  EXPECT_EQ(view.visibility.weights.q_per_mm, 70);
+  scene.render.integrator = Integrator::kPath;
+  compiled.update(resolve(scene, volume, statistics));
+  EXPECT_FALSE(view.ray_march.on);
+  EXPECT_NE(view.visibility.pixels.heads, nullptr);
+  EXPECT_LT(view.visibility.weights.q_per_mm, 70);
+  scene.render.integrator = Integrator::kRayMarch;
+  compiled.update(resolve(scene, volume, statistics));
+  EXPECT_EQ(view.visibility.pixels.heads, nullptr);
 }
 
 }  // namespace

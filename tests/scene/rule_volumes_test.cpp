@@ -85,6 +85,17 @@ TEST_F(Proxies, AreReadAndDerived) {
   for (int i = 0; i < 9 * 8 * 7; ++i) ASSERT_EQ(labels[i] == 1, depths[i] > 0) << i;
 }
 
+TEST_F(Proxies, OfLabelsEndSmoothlyOrAtVoxels) {
+  ProxyDescription labels = file("organs", "organs.nrrd", Lookup::kNearest);
+  const RuleVolumes smooth = read({labels, file("soft", "soft.nrrd")});
+  const RuleVolumeView& view = smooth.volumes()[1].view;
+  ASSERT_NE(view.leads, nullptr);
+  EXPECT_TRUE(std::equal(view.leads, view.leads + 9 * 8 * 7, label_leads(view.grid).begin()));
+  EXPECT_EQ(smooth.volumes()[2].view.leads, nullptr);
+  labels.outline = Outline::kVoxels;
+  EXPECT_EQ(read({labels}).volumes()[1].view.leads, nullptr);
+}
+
 TEST_F(Proxies, LieWhereTheFilesSay) {
   test::Placement place = test::placements()[3];
   place.origin_mm = {3, 2, 1};

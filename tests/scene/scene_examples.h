@@ -20,8 +20,9 @@ inline SceneDescription full_scene() {
       {RuleKind::kCoefficientPoints, "atlas", {}, "gradient", ColumnForm::kPoints, {{-2.5, {varied}}}}};
   s.transfer.merge = Merge::kProduct;
   s.transfer.smooth_labels = false;
-  s.proxies = {{"pet", ProxyKind::kSmoothed, "pet.nrrd", "atlas", 2.5, {3, 70000}, Lookup::kNearest},
-               {"atlas", ProxyKind::kFile, "atlas.nii", "data", 1, {}, Lookup::kNearest}};
+  s.proxies = {
+      {"pet", ProxyKind::kSmoothed, "pet.nrrd", "atlas", 2.5, {3, 70000}, Lookup::kNearest, Outline::kVoxels},
+      {"atlas", ProxyKind::kFile, "atlas.nii", "data", 1, {}, Lookup::kNearest, Outline::kVoxels}};
   s.materials = {{"shell",
                   "glass",
                   0.5,
@@ -43,8 +44,17 @@ inline SceneDescription full_scene() {
   s.illustration = IllustrationDescription{
       {{0, 0.5, {}, Color{{0, 0, 1}}, {}}}, {0, 0, 2}, Attachment::kWorld, 0.25, 0.5, Color{{1, 0, 0}}};
   s.labels = LabelsDescription{"labels.nii.gz", "labels.txt", 0.75};
-  s.material = {
-      Shading::kBrdf, SurfaceShareForm::kThreshold, 0.7, false, -0.3, 0.9, 0.1, LobeModel::kParticles, 0.5};
+  s.material = {Shading::kBrdf,
+                SurfaceShareForm::kThreshold,
+                0.7,
+                false,
+                -0.3,
+                0.9,
+                0.1,
+                2,
+                10,
+                LobeModel::kParticles,
+                0.5};
   LightDescription sun, lamp, panel;
   sun.direction = Double3{-0.5, 0.6, 0.75};
   sun.color = Color{{1, 0.9f, 0.8f}};
@@ -76,9 +86,12 @@ inline SceneDescription full_scene() {
   ImportanceDescription box;
   box.center_mm = Double3{0, 0, 0};
   box.size_mm = Double3{10, 20, 30};
-  s.visibility = VisibilityDescription{{important, box}, 2, 50, 20, 0.5, VisibilityLights::kAll, 100, 32, 8};
+  s.visibility = VisibilityDescription{{important, box},         2,   50, 20, 0.5,
+                                       VisibilityLights::kAll,   100, 32, 8,  ImportanceLookup::kPerVoxel,
+                                       ImportanceSums::kDiscrete};
   s.render.integrator = Integrator::kVplDvr;
   s.render.march_step_voxels = 1.5;
+  s.render.march_jitter = false;
   s.render.virtual_lights = 64;
   s.render.virtual_light_radius = 0.1;
   s.render.seed = 18446744073709551615ull;

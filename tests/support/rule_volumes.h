@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,7 +15,8 @@ class RuleVolumeSet {
  public:
   explicit RuleVolumeSet(Volume main) { add("data", std::move(main), Lookup::kLinear); }
 
-  RuleVolumeSet& add(const std::string& name, Volume volume, Lookup lookup) {
+  RuleVolumeSet& add(const std::string& name, Volume volume, Lookup lookup,
+                     Outline outline = Outline::kVoxels) {
     voxels_.push_back(std::move(volume));
     RuleVolume out;
     out.name = name;
@@ -22,6 +24,10 @@ class RuleVolumeSet {
     view.grid = make_grid_view(voxels_.back());
     view.nearest = lookup == Lookup::kNearest;
     view.surface_volume = view.nearest ? 0 : static_cast<std::int32_t>(volumes_.size());
+    if (view.nearest && outline == Outline::kSmooth) {
+      leads_.push_back(std::make_shared<const std::vector<std::uint8_t>>(label_leads(view.grid)));
+      view.leads = leads_.back()->data();
+    }
     const VolumeStatistics statistics = compute_statistics(view.grid);
     out.values = {statistics.lower, statistics.upper};
     out.has_nonfinite = statistics.nonfinite_voxels > 0;
@@ -57,6 +63,7 @@ class RuleVolumeSet {
   }
 
   std::vector<Volume> voxels_;
+  std::vector<std::shared_ptr<const std::vector<std::uint8_t>>> leads_;
   std::vector<RuleVolume> volumes_;
 };
 

@@ -217,7 +217,11 @@ TEST_P(VectorTracking, RandomRules) {
   shifted.origin_mm = {12, 5, 15};
   test::RuleVolumeSet volumes(test::noise_volume<std::int16_t>(size, 0, 1000, 17));
   volumes.add("organs", test::noise_volume<std::uint8_t>(size, 0, 6, 18), Lookup::kNearest)
-      .add("pet", test::noise_volume<float>({20, 20, 20}, 0, 10, 19, shifted), Lookup::kLinear);
+      .add("pet", test::noise_volume<float>({20, 20, 20}, 0, 10, 19, shifted), Lookup::kLinear)
+      .add("rounded",
+           test::make_volume<std::int16_t>(
+               {24, 24, 24}, [](auto i, auto j, auto k) { return (i / 4 + j / 3 + k / 5) % 4; }, shifted),
+           Lookup::kNearest, Outline::kSmooth);
   const auto materials = test::random_rule_materials();
   Rng rng(20, 0, 0, 0);
   test::RandomRules random(volumes, rng);

@@ -1,4 +1,4 @@
-#include "visibility/segment_list.h"
+#include "visibility/list_refiner.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -111,23 +111,12 @@ std::vector<double> refine(const Features& features, int passes, unsigned seed) 
   constexpr int kStrata = 48;
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> uniform;
-  std::vector<ImportanceSegment> list, next;
-  std::vector<StrataRun> runs;
+  ListRefiner refiner;
+  std::vector<ImportanceSegment> list;
   std::vector<double> errors;
   for (int pass = 0; pass < passes; ++pass) {
-    if (pass % 4 == 0)
-      runs = {{0, 1, kStrata}};
-    else
-      adaptive_strata(list, 0, 1, kStrata, runs);
-    std::vector<ImportanceSample> samples;
-    for (const StrataRun& run : runs)
-      for (int i = 0; i < run.count; ++i) {
-        const float t = run.begin + (run.end - run.begin) * (static_cast<float>(i) + uniform(random)) /
-                                        static_cast<float>(run.count);
-        samples.push_back({t, features(t)});
-      }
-    merge_samples(list, samples, 2.0f / kStrata, next);
-    std::swap(list, next);
+    refiner.refine(
+        pass, 0, 1, kStrata, features, [&] { return uniform(random); }, list);
     errors.push_back(std::abs(double{integrate_segments(list, 0, 1)} - features.integral()));
     EXPECT_LE(list.size(), 16u);
   }
