@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <memory>
 
 #include "cli/commands.h"
@@ -43,8 +45,11 @@ void load(RenderRun& run, const SceneDescription& scene) {
   run.progress.show("preparing");
   Session& session = run.session.emplace(scene, std::move(volume));
   const bool frame = scene.animation && !run.request.output.empty();
-  session.compile(frame ? session.frame_description(requested_frames(run.request, scene).first)
-                        : session.description());
+  session.compile(
+      frame ? session.frame_description(requested_frames(run.request, scene).first) : session.description(),
+      [&](double share) {
+        run.progress.show(fmt::format("looking for what is important: {:.0f} %", 100 * share));
+      });
   run.progress.clear();
   print_warnings(session.compiled().warnings());
 }

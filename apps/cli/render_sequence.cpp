@@ -43,7 +43,8 @@ RenderStatus render_missing(RenderRun& run, const FramePattern& files, const Fra
     nonfinite_samples += of_frame.nonfinite_samples;
     nlohmann::json entry = to_json(of_frame);
     entry["frame"] = frame;
-    for (const char* key : {"threads", "simd", "total_s", "majorant_build_ms", "seed", "version"})
+    for (const char* key :
+         {"threads", "simd", "integrator", "total_s", "majorant_build_ms", "seed", "version"})
       entry.erase(key);
     statistics.push_back(std::move(entry));
   };

@@ -26,7 +26,10 @@ void report_statistics(const RenderRun& run, const RenderState& state, double lo
   statistics.load_s = load_s;
   statistics.threads = thread_count();
   statistics.simd = simd_name(scene.view().simd);
+  statistics.integrator = enum_word(scene.description().render.integrator);
   statistics.majorant_build_ms = scene.majorant_build_ms();
+  statistics.importance_list_s = scene.importance_list_s();
+  statistics.importance_list_bytes = scene.importance_list_bytes();
   statistics.seed = scene.description().render.seed;
   statistics.version = VOXLUME_VERSION;
   statistics.total_s = run.elapsed_s();

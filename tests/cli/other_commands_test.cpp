@@ -61,6 +61,16 @@ TEST_F(CliTest, ConvertThereAndBack) {
   }
 }
 
+TEST_F(CliTest, ConvertDevelopsAPicture) {
+  ASSERT_EQ(render("ball.nrrd", "a.exr", {"--exposure", "1"}).code, 0);
+  ASSERT_EQ(render("ball.nrrd", "direct.png", {"--exposure", "1"}).code, 0);
+  const RunResult r = run({"convert", "a.exr", "developed.png"});
+  ASSERT_EQ(r.code, 0) << r.err;
+  EXPECT_EQ(json::parse(run({"compare", "developed.png", "direct.png", "--json"}).out)["rmse"], 0.0);
+  EXPECT_THAT(run({"convert", "a.exr", "a.nrrd"}).err, HasSubstr("a.nrrd"));
+  EXPECT_THAT(run({"convert", "a.exr", "a.exr"}).err, HasSubstr("is an input of this command"));
+}
+
 TEST_F(CliTest, CompareOfIdenticalPictures) {
   ASSERT_EQ(render("ball.nrrd", "a.exr").code, 0);
   const RunResult r = run({"compare", "a.exr", "a.exr", "--json"});

@@ -45,7 +45,7 @@ TEST_F(CliTest, PicturesDoNotDependOnThreads) {
 
 TEST_F(CliTest, IntegratorsGivePicturesOfTheirOwnAndScenesOfTheirs) {
   std::vector<Image> pictures;
-  for (const std::string name : {"path", "exposure-render", "rmss", "vpl-dvr", "ar2t"}) {
+  for (const std::string name : {"path", "exposure-render", "rmss", "vpl-dvr", "ar2t", "ray-march"}) {
     const RunResult r =
         render("ball.nrrd", name + ".exr", {"--integrator", name, "--save-scene", name + ".json"});
     ASSERT_EQ(r.code, 0) << r.err;
@@ -144,9 +144,10 @@ TEST_F(CliTest, RawVolumesRenderAsTheirNamesakes) {
 TEST_F(CliTest, StatisticsHaveTheirKeys) {
   ASSERT_EQ(render("ball.nrrd", "o.png", {"--stats", "s.json", "--threads", "2"}).code, 0);
   const json stats = json::parse(read("s.json"));
-  for (const char* key : {"wall_s", "load_s", "total_s", "threads", "simd", "spp", "paths", "tracking_steps",
-                          "steps_per_s", "paths_per_s", "majorant_build_ms", "peak_rss_bytes",
-                          "nonfinite_samples", "mean_luminance", "seed", "version"}) {
+  for (const char* key :
+       {"wall_s", "load_s", "total_s", "threads", "simd", "integrator", "spp", "paths", "tracking_steps", "steps_per_s",
+        "paths_per_s", "majorant_build_ms", "importance_list_s", "importance_list_mb", "peak_rss_bytes",
+        "nonfinite_samples", "mean_luminance", "seed", "version"}) {
     EXPECT_TRUE(stats.contains(key)) << key;
   }
   EXPECT_EQ(stats["threads"], 2);

@@ -80,6 +80,33 @@ TEST_F(CliRules, WhatIsImportantIsKeptInView) {
   EXPECT_EQ(pixels("none.exr"), pixels("plain.exr"));
 }
 
+TEST_F(CliRules, RaysAreMarchedInStepsThatAreAskedFor) {
+  const auto pixels = [&](const char* name) { return read_image(folder_ / name).rgba; };
+  const auto march = [&](const char* out, std::vector<std::string> more) {
+    const std::vector<std::string> all{
+        "--integrator", "ray-march", "--important", "950:", "--march-jitter", "false", "--march-step"};
+    more.insert(more.begin(), all.begin(), all.end());
+    const RunResult r = render("ball.nrrd", out, more);
+    EXPECT_EQ(r.code, 0) << r.err;
+  };
+  march("a.exr", {"1", "--save-scene", "a.json", "--stats", "stats.json"});
+  ASSERT_EQ(render("a.json", "again.exr", {"--threads", "1"}).code, 0);
+  EXPECT_EQ(pixels("a.exr"), pixels("again.exr"));
+  const json stats = json::parse(read("stats.json"));
+  EXPECT_GT(stats["shadow_rays"], 0) << stats.dump();
+  march("short.exr", {"0.25"});
+  EXPECT_NE(pixels("a.exr"), pixels("short.exr"));
+  march("sums.exr", {"0.25", "--set", "/visibility/sums=discrete"});
+  EXPECT_NE(pixels("sums.exr"), pixels("short.exr"));
+  for (const char* denoiser : {"decoupled", "asvgf"}) {
+    march("denoised.exr", {"1", "--denoise", denoiser});
+    EXPECT_NE(pixels("denoised.exr"), pixels("a.exr"));
+  }
+  const RunResult r = render("ball.nrrd", "o.exr", {"--integrator", "ray-march", "--march-step", "0.0001"});
+  EXPECT_EQ(r.code, 2);
+  EXPECT_THAT(r.err, HasSubstr("--march-step"));
+}
+
 TEST_F(CliRules, RenderProxiesRulesAndMaterials) {
   const RunResult r = render_scene(scene(), "o.exr", {"--stats", "stats.json"});
   ASSERT_EQ(r.code, 0) << r.err;
@@ -117,6 +144,30 @@ TEST_F(CliRules, PathsOfProxiesStartFromTheScenesFolder) {
   EXPECT_EQ(json::parse(read("maps/t.json"))["proxies"][0]["path"], "organs.nrrd");
 }
 
+TEST_F(CliRules, LabelsEndAtVoxelsOrSmoothly) {
+  json other = scene();
+  const auto picture = [&](const char* outline) {
+    if (*outline) other["proxies"][0]["outline"] = outline;
+    const RunResult r = render_scene(other, "o.exr", {"--stats", "stats.json"});
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_EQ(json::parse(read("stats.json"))["majorant_violations"], 0);
+    return read_image(folder_ / "o.exr").rgba;
+  };
+  // A flat border lies at the voxels' faces in any case.
+  const auto flat = picture("");
+  EXPECT_EQ(picture("voxels"), flat);
+  Placement place;
+  place.spacing_mm = {2, 2, 2};
+  place.origin_mm = {-10, -10, -14};
+  write_volume(make_volume<std::uint8_t>(
+                   {11, 11, 15}, [](auto i, auto, auto k) { return 2 * i + k < 17 ? 2 : 0; }, place),
+               folder_ / "maps/organs.nrrd");
+  const auto voxels = picture("voxels"), smooth = picture("smooth");
+  EXPECT_NE(smooth, voxels);
+  other["proxies"][0].erase("outline");
+  EXPECT_EQ(picture(""), smooth);
+}
+
 TEST_F(CliRules, PicturesHoldNoPathsOfProxies) {
   ASSERT_EQ(render_scene(scene(), "o.exr").code, 0);
   EXPECT_EQ(read("o.exr").find("maps/organs"), std::string::npos);
@@ -135,6 +186,9 @@ TEST_F(CliRules, WrongOnesAreRefusedInOneLine) {
   wrong = scene();
   wrong["proxies"][1]["of"] = "organ";
   expect_refused(wrong, "/proxies/1/of");
+  wrong = scene();
+  wrong["proxies"][0]["outline"] = "round";
+  expect_refused(wrong, "/proxies/0/outline");
   wrong = scene();
   wrong["materials"][0]["like"] = "silver";
   expect_refused(wrong, "/materials/0/like");
