@@ -54,13 +54,13 @@ struct TimedRender {
   TraceCounters counters;
 };
 
-/// Renders on one thread.
-inline TimedRender render_on_one_thread(const CompiledScene& scene, int spp) {
+/// Renders on so many threads; 0: all.
+inline TimedRender timed_render(const CompiledScene& scene, int spp, int threads) {
   const SceneView& view = scene.view();
   RenderState state{Film(view.width, view.height), {}};
   RenderLoopOptions options;
   options.stop.spp = spp;
-  options.threads = 1;
+  options.threads = threads;
   const double start = processor_ms();
   run_render_loop(
       state,
@@ -69,6 +69,10 @@ inline TimedRender render_on_one_thread(const CompiledScene& scene, int spp) {
       },
       options);
   return {processor_ms() - start, state.counters};
+}
+
+inline TimedRender render_on_one_thread(const CompiledScene& scene, int spp) {
+  return timed_render(scene, spp, 1);
 }
 
 }  // namespace voxlume

@@ -26,6 +26,16 @@ picture environment $ct --preset ct-skin --env data/env/sunset.exr --background 
 for scene in head-materials brain-regions brodmann-areas fusion merge-product merge-priority illustration toon; do
   picture $scene examples/$scene.json
 done
+labels=$(mktemp -d)  # docs/transfer-functions.md: both outlines, side by side
+for outline in voxels smooth; do
+  printf 'gallery: labels with outline %s\n' $outline >&2
+  build/release/voxlume render examples/brain-labels.json -o "$labels/$outline.png" --size 340x340 --spp $spp --set /proxies/0/outline=$outline
+done
+python3 tools/side_by_side.py "$labels/voxels.png" "$labels/smooth.png" 20,20,320,320 "$out/label-outlines.png" || echo "label-outlines.png needs python3 with Pillow" >&2
+rm -rf "$labels"
+picture visibility-off examples/visibility.json --set /visibility/important=[]  # docs/visibility.md
+picture visibility-eye examples/visibility.json --visibility-lights off
+picture visibility-light examples/visibility.json
 picture self-occlusion-1 examples/head-materials.json
 picture self-occlusion-03 examples/head-materials.json --set /material/self_occlusion=0.3
 # xu2025 Fig. 13: one extinction and extinctions by channel; tools/experiments/rgb-extinction.sh measures their noise

@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 
+#include "base/parallel.h"
 #include "metrics/flip.h"
 #include "metrics/metrics.h"
 #include "study.h"
@@ -70,33 +71,61 @@ struct Moment {
   int frame = 0, compared = 0;  ///< compared: how many frames were before
   bool is_compared = false, is_shown = false;
   const Reference* exact = nullptr;  ///< null: the frame is not looked at
-  const Image* before = nullptr;     ///< what was there before an abrupt change; null: there was none
+  const FlipReference* exact_look = nullptr;
+  const Image* before = nullptr;  ///< what was there before an abrupt change; null: there was none
 };
 
-void look(const Options& o, const Sequence& sequence, const Moment& moment, Run& run, double render_ms,
-          Table& table) {
+/// What a method made of a frame, and how far that is from the exact picture.
+struct Result {
+  const Method* method;
+  double ms;
+  Image picture;
+  double rmse, psnr_db, psnr_hdr_db, ssim, flip;
+
+  void compare(const Image& exact, const FlipReference& exact_look) {
+    rmse = voxlume::rmse(picture, exact);
+    psnr_db = psnr(picture, exact).value_or(99);
+    psnr_hdr_db = psnr_hdr(picture, exact).value_or(99);
+    ssim = voxlume::ssim(picture, exact).value_or(1);
+    flip = exact_look.compare(picture).mean;
+  }
+};
+
+/// Every method denoises the frame; the results of those that are looked at.
+std::vector<Result> denoise_all(const Options& o, const Moment& moment, Run& run) {
+  std::vector<Result> results;
   for (Method& method : run.methods) {
     if (!method.has_history() && moment.exact == nullptr) continue;
     if (method.name() == "oidn" && (!moment.is_compared || moment.compared % o.neural_every != 0)) continue;
     const double ms = method.denoise(run.frame);
-    if (moment.exact == nullptr) continue;
-    const Image picture = method.picture(run.frame);
-    const Image& exact = moment.exact->image;
-    const double db = psnr(picture, exact).value_or(99), flip_mean = flip(picture, exact).mean;
+    if (moment.exact) results.push_back({&method, ms, method.picture(run.frame), 0, 0, 0, 0, 0});
+  }
+  return results;
+}
+
+void look(const Options& o, const Sequence& sequence, const Moment& moment, Run& run, double render_ms,
+          Table& table) {
+  std::vector<Result> results = denoise_all(o, moment, run);
+  // Most of a comparison is done by one thread.
+  parallel_for(static_cast<std::int64_t>(results.size()), 1, [&](std::int64_t i) {
+    results[static_cast<std::size_t>(i)].compare(moment.exact->image, *moment.exact_look);
+  });
+  for (const Result& r : results) {
+    const std::string& method = r.method->name();
     std::string ghost;
-    if (moment.before) ghost = fmt::format("{:.5f}", ghost_share(picture, exact, *moment.before));
+    if (moment.before)
+      ghost = fmt::format("{:.5f}", ghost_share(r.picture, moment.exact->image, *moment.before));
     table.add(fmt::format("{},{},{},{},{},{},{:.6g},{:.4f},{:.4f},{:.5f},{:.5f},{},{:.2f},{:.1f}",
-                          sequence.data().name, sequence.animation().name, run.spp, moment.frame,
-                          method.name(), moment.is_compared ? 1 : 0, rmse(picture, exact), db,
-                          psnr_hdr(picture, exact).value_or(99), ssim(picture, exact).value_or(1), flip_mean,
-                          ghost, ms, render_ms));
+                          sequence.data().name, sequence.animation().name, run.spp, moment.frame, method,
+                          moment.is_compared ? 1 : 0, r.rmse, r.psnr_db, r.psnr_hdr_db, r.ssim, r.flip, ghost,
+                          r.ms, render_ms));
     if (moment.is_compared) {
-      std::array<double, 3>& sums = run.sums[method.name()];
-      sums[0] += db, sums[1] += flip_mean, sums[2] += 1;
+      std::array<double, 3>& sums = run.sums[method];
+      sums[0] += r.psnr_db, sums[1] += r.flip, sums[2] += 1;
     }
     if (moment.is_shown)
-      write_display(o, picture,
-                    fmt::format("{}-{:03d}-{}spp-{}", sequence.name(), moment.frame, run.spp, method.name()));
+      write_display(o, r.picture,
+                    fmt::format("{}-{:03d}-{}spp-{}", sequence.name(), moment.frame, run.spp, method));
   }
 }
 
@@ -137,9 +166,12 @@ void run_sequence(const Options& o, const Dataset& data, const Animation& animat
     Moment moment{.frame = f, .compared = compared, .is_compared = plan.compares(f)};
     moment.is_shown = plan.abrupt ? f == kAbruptFrame + 1 : f + o.every >= frames;
     std::optional<Reference> exact;
+    std::optional<FlipReference> exact_look;
     if (plan.looks_at(f)) {
       exact = look_up(o, sequence, moment, table);
+      exact_look.emplace(exact->image);
       moment.exact = &*exact;
+      moment.exact_look = &*exact_look;
       if (plan.shows_ghosts(f) && f >= kAbruptFrame) moment.before = &before;
     }
     for (Run& run : runs) {

@@ -1,8 +1,11 @@
 #include "sequences.h"
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <span>
+#include <utility>
 
 #include "base/parallel.h"
 #include "integrator/path_tracer.h"
@@ -140,14 +143,23 @@ void choose(const std::string& name, SceneDescription& scene) {
   }
 }
 
-Film render_film(const SceneView& view, int spp, FilmLayers layers) {
-  Film film(view.width, view.height, layers);
+/// Films of as many frames, each with other random numbers, in one go: cores wait for one another once.
+std::vector<Film> render_films(SceneView view, std::span<const std::uint32_t> frames, int spp,
+                               FilmLayers layers) {
   const std::vector<TileRect> tiles = make_tiles(view.width, view.height, 32);
-  parallel_for(static_cast<std::int64_t>(tiles.size()), 1, [&](std::int64_t i) {
+  std::vector<Film> films;
+  std::vector<SceneView> views;
+  for (const std::uint32_t frame : frames) {
+    films.emplace_back(view.width, view.height, layers);
+    view.frame = frame;
+    views.push_back(view);
+  }
+  parallel_for(static_cast<std::int64_t>(films.size() * tiles.size()), 1, [&](std::int64_t i) {
+    const std::size_t job = static_cast<std::size_t>(i), film = job / tiles.size();
     TraceCounters counters;
-    render_tile(view, tiles[i], 0, spp, film, counters);
+    render_tile(views[film], tiles[job % tiles.size()], 0, spp, films[film], counters);
   });
-  return film;
+  return films;
 }
 
 }  // namespace
@@ -215,18 +227,20 @@ double Sequence::render(int spp, std::uint32_t seed, GradientSampler& gradients,
   SceneView scene = view();
   scene.frame = seed;
   scene.keeps_parts = true;
+  const std::array frames{seed};
   const auto begin = std::chrono::steady_clock::now();
-  const Film film = render_film(scene, spp, {.normal = true, .albedo = true, .classes = true});
+  const Film film =
+      std::move(render_films(scene, frames, spp, {.normal = true, .albedo = true, .classes = true}).front());
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
   fill_denoise_frame(film, scene, static_cast<float>(data_.size_mm), out);
   gradients.fill(scene, film, out);
   return took.count();
 }
 
-Image Sequence::picture(int spp, std::uint32_t seed) const {
-  SceneView scene = view();
-  scene.frame = seed;
-  return image_from_film(render_film(scene, spp, {}), {}, false);
+std::pair<Image, Image> Sequence::pictures(int spp, std::uint32_t seed) const {
+  const std::array frames{seed, seed + 1};
+  const std::vector<Film> films = render_films(view(), frames, spp, {});
+  return {image_from_film(films[0], {}, false), image_from_film(films[1], {}, false)};
 }
 
 }  // namespace voxlume::study

@@ -57,8 +57,8 @@ class Sequence {
   /// of one `seed` have the same noise.
   /// `gradients` has seen the frame before, if there was one, and sees this one.
   double render(int spp, std::uint32_t seed, GradientSampler& gradients, DenoiseFrame& out) const;
-  /// The moment's plain picture.
-  Image picture(int spp, std::uint32_t seed) const;
+  /// Two plain pictures of the moment, of seeds `seed` and the next.
+  std::pair<Image, Image> pictures(int spp, std::uint32_t seed) const;
 
   const Dataset& data() const { return data_; }
   const Animation& animation() const { return animation_; }

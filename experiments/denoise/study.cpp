@@ -29,8 +29,7 @@ Reference reference(const Options& o, const Sequence& sequence, int frame) {
     return {std::move(image), db, flip};
   }
   const std::uint32_t seed = kReferenceSeed + 2 * static_cast<std::uint32_t>(frame);
-  Image image = sequence.picture(o.reference_spp / 2, seed);
-  const Image half = sequence.picture(o.reference_spp - o.reference_spp / 2, seed + 1);
+  auto [image, half] = sequence.pictures((o.reference_spp + 1) / 2, seed);
   // The mean is half as far from the truth as the halves are from one another, in root mean square.
   const double floor_db = psnr(image, half).value_or(99) + 20 * std::log10(2.0);
   const double floor_flip = flip(image, half).mean;

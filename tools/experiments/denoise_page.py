@@ -3,32 +3,15 @@
 
 denoise_page.py FOLDER; leaves FOLDER/index.html, FOLDER/summary.csv and FOLDER/summary.md.
 """
-import base64
 import html
 import pathlib
 import sys
 
 import denoise_tables as tables
 import svg_plots as plots
+from study_page import Page, table
 
-MAX_EMBEDDED_BYTES = 40 << 20  # of pictures; what comes after is linked
-
-STYLE = """
-:root{color-scheme:light dark;--bg:#fcfcfb;--fg:#1d2125;--dim:#6a7178;--rule:#d9dcdf;--card:#f3f4f4}
-@media(prefers-color-scheme:dark){:root{--bg:#14171a;--fg:#e6e8ea;--dim:#98a0a8;--rule:#31373d;--card:#1c2125}}
-body{background:var(--bg);color:var(--fg);font:15px/1.5 system-ui,sans-serif;max-width:1180px;margin:2rem auto;padding:0 1rem}
-h1{font-size:1.6rem}h2{margin-top:2.4rem;border-bottom:1px solid var(--rule);font-size:1.25rem}h3{font-size:1rem;margin-bottom:.3rem}
-p,li{max-width:85ch}table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:13px;margin:.6rem 0}
-td,th{padding:.15rem .6rem;border-bottom:1px solid var(--rule);text-align:right}td:first-child,th:first-child{text-align:left}
-.best{font-weight:700}.missed{color:#c8372d}.scroll{overflow-x:auto}.dim{color:var(--dim)}
-.grid-of{display:grid;grid-template-columns:repeat(auto-fill,minmax(320px,1fr));gap:.6rem}
-.pictures{display:grid;grid-template-columns:repeat(auto-fill,minmax(220px,1fr));gap:.4rem}
-figure{margin:0}figure img{width:100%;display:block;background:#000}figcaption{font-size:12px;color:var(--dim)}
-svg.plot{width:100%;height:auto;background:var(--card);border-radius:4px}
-.plot text{font:10px system-ui,sans-serif;fill:var(--fg)}.plot .tick{font-size:9px;fill:var(--dim)}.plot .title{font-weight:600}
-.plot .grid{stroke:var(--rule);stroke-width:.6;fill:none}.line{fill:none;stroke:var(--c);stroke-width:1.5}
-.box{stroke:var(--c)}.box path{fill:none;stroke:var(--c);stroke-width:1.2}.box rect{fill:var(--c);fill-opacity:.3}.box .median{stroke-width:2.2}
-.key span{white-space:nowrap;margin-right:1rem;font-size:13px}.key i{display:inline-block;width:18px;height:3px;background:var(--c);vertical-align:middle;margin-right:5px}
+COLOURS = """
 .noisy{--c:#8b9096}.decoupled{--c:#d1493f}.svgf{--c:#3f7fc4}.xu2024{--c:#b07cc6}.asvgf{--c:#2aa3a3}.wrls{--c:#3d9950}.rls{--c:#9fb53a}
 .atrous{--c:#8f62c4}.bilateral{--c:#c467ad}.oidn{--c:#d79a2b}.still{--c:#e58f87}.reference{--c:var(--dim)}
 """
@@ -39,64 +22,11 @@ def colour(method):
             "wrls-no-feature": "wrls", "rls-no-feature": "rls"}.get(method, method)
 
 
-def table(header, rows, best=()):
-    """`best`: {column: min or max}; that row's cell is bold."""
-    choice = {}
-    for column, pick in dict(best).items():
-        values = [(r[column], i) for i, r in enumerate(rows) if isinstance(r[column], float)]
-        if values:
-            choice[column] = pick(values)[1]
-    out = ["<div class=scroll><table><tr>" + "".join(f"<th>{html.escape(h)}</th>" for h in header) + "</tr>"]
-    for i, row in enumerate(rows):
-        cells = []
-        for column, value in enumerate(row):
-            kind = ' class="best"' if choice.get(column) == i else ""
-            cells.append(f"<td{kind}>{html.escape(tables.text(value))}</td>")
-        out.append("<tr>" + "".join(cells) + "</tr>")
-    return "".join(out) + "</table></div>"
-
-
-class Page:
-    def __init__(self, folder):
-        self.folder, self.parts, self.embedded = folder, [], 0
-
-    def add(self, text):
-        self.parts.append(text)
-
-    def pictures(self, names):
-        """`names`: (file without its ending, caption); those that are missing are left out."""
-        out = []
-        for name, caption in names:
-            path = self.folder / "pictures" / f"{name}.png"
-            if not path.exists():
-                continue
-            source = f"pictures/{name}.png"
-            if self.embedded < MAX_EMBEDDED_BYTES:
-                data = path.read_bytes()
-                self.embedded += len(data)
-                source = "data:image/png;base64," + base64.b64encode(data).decode()
-            out.append(f'<figure><img src="{source}" alt="{html.escape(caption)}"><figcaption>{html.escape(caption)}</figcaption></figure>')
-        if out:
-            self.add('<div class="pictures">' + "".join(out) + "</div>")
-
-    def key(self, methods):
-        self.add('<p class="key">' + "".join(
-            f'<span class="{colour(m)}"><i></i>{html.escape(m)}</span>' for m in methods) + "</p>")
-
-    def plots(self, made):
-        self.add('<div class="grid-of">' + "".join(made) + "</div>")
-
-    def write(self, title):
-        text = (f'<!doctype html><html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width">'
-                f"<title>{html.escape(title)}</title><style>{STYLE}</style><h1>{html.escape(title)}</h1>" + "\n".join(self.parts) + "</html>\n")
-        (self.folder / "index.html").write_text(text)
-
-
 def over_time(page, study):
     page.add("<h2>Over time</h2><p>Of the frames that were compared. In the tables above, “reference's own” is the PSNR that the reference itself has to "
              "the truth, from how far its two halves are apart.</p>")
     main = [m for m in study.methods() if not m.startswith("decoupled-")]
-    page.key(main)
+    page.key([(colour(m), m) for m in main])
     for data, animation in study.sequences():
         page.add(f"<h3>{html.escape(data)}, {html.escape(animation)}</h3>")
         made = []
@@ -182,7 +112,7 @@ def sweeps(page, study):
         for column, title, unit in (("psnr_db", "PSNR", "dB"), ("frames_per_second", "frames a second", "1/s")):
             curves = [(colour(m), m, [(int(r["spp"]), float(r[column])) for r in rows if r["method"] == m]) for m in methods]
             made.append(plots.lines(f"{data}: {title}", unit, "samples a pixel", curves, log_x=True))
-    page.key(methods)
+    page.key([(colour(m), m) for m in methods])
     page.plots(made)
 
 
@@ -200,7 +130,7 @@ def still(page, study):
 def main():
     folder = pathlib.Path(sys.argv[1])
     study = tables.Study(folder)
-    page = Page(folder)
+    page = Page(folder, COLOURS)
     page.add(tables.introduction(study))
     page.add("<h2>Goals</h2>" + "".join(f"<h3>{html.escape(t)}</h3>" + table(h, r) for t, h, r in study.goals()))
     page.add("<h2>Summary</h2>")

@@ -5,17 +5,11 @@ import html
 import math
 import statistics
 
+from study_page import text
+
 GOAL_DB = 6.0
 SUMMARY_HEADER = ["method", "PSNR, dB", "gain over noisy, dB", "FLIP", "SSIM", "variance / noisy's", "median denoise, ms"]
 EXTRA = ("decoupled-one-class", "decoupled-no-decoupling")
-
-
-def text(value):
-    if value is None:
-        return "–"
-    if isinstance(value, float):
-        return "–" if math.isnan(value) else f"{value:.3g}" if abs(value) < 1 else f"{value:.2f}"
-    return str(value)
 
 
 def mean(values):

@@ -71,12 +71,12 @@ def svg(parts, width=WIDTH, height=HEIGHT):
             + "".join(parts) + "</svg>")
 
 
-def lines(title, unit, x_title, curves, log_x=False):
+def lines(title, unit, x_title, curves, log_x=False, log_y=False):
     """`curves`: (class of the colour, name, [(x, y)])."""
     xs = [x for _, _, points in curves for x, _ in points]
     ys = [y for _, _, points in curves for _, y in points]
     x_axis = Axis(xs, LEFT, WIDTH - RIGHT, log_x, 0.02)
-    y_axis = Axis(ys, HEIGHT - BOTTOM, TOP)
+    y_axis = Axis(ys, HEIGHT - BOTTOM, TOP, log_y)
     parts = frame(title, unit, x_title, x_axis, y_axis, not log_x)
     if log_x:
         for x in sorted(set(xs)):
