@@ -66,8 +66,9 @@ struct LiveOptions {
 /// scenes that came while a frame was drawn the last one is next.
 class LiveSession {
  public:
-  /// Starts with nothing to show. `session` has the volume.
-  LiveSession(Session session, LiveListener listener, LiveOptions options = {});
+  /// Takes the volume's statistics and resolves `scene` (session().description()), but shows nothing yet.
+  /// Throws Error, those of resolve().
+  LiveSession(const SceneDescription& scene, Volume volume, LiveListener listener, LiveOptions options = {});
   /// Ends what is being rendered within a fraction of a second.
   ~LiveSession();
   LiveSession(const LiveSession&) = delete;
