@@ -107,15 +107,9 @@ void LiveSession::Loop::run() {
       case Step::kRefine:
         attempt([&] { refine(); });
         break;
-      case Step::kAside: {
-        std::unique_lock lock(live_.mutex_);
-        if (live_.wishes_.asides.empty()) break;
-        Aside aside = std::move(live_.wishes_.asides.front());
-        live_.wishes_.asides.erase(live_.wishes_.asides.begin());
-        lock.unlock();
-        draw(std::move(aside));
+      case Step::kAside:
+        draw(next_aside());
         break;
-      }
     }
   }
 }
@@ -197,8 +191,8 @@ FilmLayers LiveSession::Loop::layers() const {
   return out;
 }
 
-void LiveSession::Loop::trace(RenderState& state, const StopRule& stop, const std::atomic<bool>* cancel,
-                              bool tells) const {
+RenderStatus LiveSession::Loop::trace(RenderState& state, const StopRule& stop,
+                                      const std::atomic<bool>* cancel, bool tells) const {
   RenderLoopOptions loop;
   loop.stop = stop;
   if (state.film.layers().classes) loop.first_run = std::clamp(stop.spp.value_or(1), 1, kClassifiedTogether);
@@ -208,12 +202,10 @@ void LiveSession::Loop::trace(RenderState& state, const StopRule& stop, const st
     loop.progress = [this](const RenderProgress& p) { live_.listener_.progress(overall(p)); };
   SceneView view = live_.session_.compiled().view();
   view.keeps_parts = state.film.layers().classes;
-  run_render_loop(
-      state,
-      [&](const TileRect& tile, int begin, int end, Film& film, TraceCounters& counters) {
-        render_tile(view, tile, begin, end, film, counters);
-      },
-      loop);
+  const auto trace_tile = [&](const TileRect& tile, int begin, int end, Film& film, TraceCounters& counters) {
+    render_tile(view, tile, begin, end, film, counters);
+  };
+  return run_render_loop(state, trace_tile, loop).status;
 }
 
 /// What remains until the scene's own rules, where a pass knows of its own end.
@@ -278,7 +270,7 @@ int LiveSession::Loop::next_still_spp() const {
   while (end <= at) end *= 2;
   if (at > 0) return end;
   const double pass_s = sizes_.cost().per_sample_s * static_cast<double>(still_->film.pixel_count());
-  while (end < 32 && 2 * end * pass_s < kFirstStill_s) end *= 2;
+  while (pass_s > 0 && end < 32 && 2 * end * pass_s < kFirstStill_s) end *= 2;
   return end;
 }
 
@@ -295,8 +287,9 @@ void LiveSession::Loop::refine() {
   StopRule stop = still_stop();
   stop.spp = std::min(next_still_spp(), stop.spp.value_or(1 << 30));
   denoised_.reset();
-  spent_.trace_s += timed([&] { trace(*still_, stop, &live_.cancel_, true); });
-  if (live_.cancel_) return;
+  RenderStatus status{};
+  spent_.trace_s += timed([&] { status = trace(*still_, stop, &live_.cancel_, true); });
+  if (status == RenderStatus::kCancelled) return;
   done_ = still_done();
   const double since_s = seconds(Clock::now() - framed_);
   if (shown_ == Shown::kNot || done_ || since_s > std::max(kShowEvery_s, kShowShare * show_s_))
@@ -357,6 +350,14 @@ void LiveSession::Loop::publish(const RenderState& state, Shown how) {
   spent_ = {};
 }
 
+LiveSession::Aside LiveSession::Loop::next_aside() {
+  const std::lock_guard lock(live_.mutex_);
+  std::vector<Aside>& asides = live_.wishes_.asides;
+  Aside aside = std::move(asides.front());
+  asides.erase(asides.begin());
+  return aside;
+}
+
 void LiveSession::Loop::draw(Aside aside) {
   Image8 picture;
   try {
@@ -366,7 +367,11 @@ void LiveSession::Loop::draw(Aside aside) {
     RenderState state{Film(image.width, image.height, {}), {}, 0};
     StopRule stop;
     stop.spp = aside.spp;
-    trace(state, stop, nullptr, false);
+    if (trace(state, stop, &live_.cancel_, false) == RenderStatus::kCancelled) {  // and try again later
+      const std::lock_guard lock(live_.mutex_);
+      live_.wishes_.asides.insert(live_.wishes_.asides.begin(), std::move(aside));
+      return;
+    }
     const bool transparent = live_.session_.compiled().view().background == BackgroundKind::kTransparent;
     picture = tone_map(image_from_film(state.film, {}, transparent),
                        {image.exposure_ev, image.tone_curve, transparent, false});

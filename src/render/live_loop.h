@@ -34,6 +34,7 @@ class LiveSession::Loop {
 
   void move();
   void refine();
+  Aside next_aside();
   void draw(Aside aside);
   void give_up_asides();
 
@@ -42,7 +43,8 @@ class LiveSession::Loop {
   StopRule still_stop() const;
   bool still_done() const;
   int next_still_spp() const;
-  void trace(RenderState& state, const StopRule& stop, const std::atomic<bool>* cancel, bool tells) const;
+  RenderStatus trace(RenderState& state, const StopRule& stop, const std::atomic<bool>* cancel,
+                     bool tells) const;
   RenderProgress overall(const RenderProgress& pass) const;
   void publish(const RenderState& state, Shown how);
   std::shared_ptr<const Image> picture(const RenderState& state, Shown how);
