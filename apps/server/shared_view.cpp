@@ -1,0 +1,270 @@
+#include "server/shared_view.h"
+
+#include <boost/beast/websocket/rfc6455.hpp>
+#include <cmath>
+
+#include "base/file_extension.h"
+#include "scene/animation.h"
+#include "scene/scene_file.h"
+#include "server/hello.h"
+#include "server/viewer.h"
+#include "voxlume/error.h"
+
+namespace voxlume::server {
+namespace {
+
+using nlohmann::json;
+
+std::shared_ptr<const std::string> shared_text(const json& message) {
+  return std::make_shared<const std::string>(text_of(message));
+}
+
+json or_null(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
+
+json refused(const std::optional<std::int64_t>& seq, const Error& error) {
+  return {{"type", "refused"},
+          {"seq", seq ? json(*seq) : json(nullptr)},
+          {"where", error.where()},
+          {"message", error.message()}};
+}
+
+}  // namespace
+
+SharedView::SharedView(boost::asio::io_context& io, Settings settings, Roots roots)
+    : io_(io),
+      settings_(std::move(settings)),
+      roots_(std::move(roots)),
+      opening_(io, settings_.live,
+               {.status = [this](const auto&... of) { set_status(of...); },
+                .opened = [this](std::shared_ptr<OpenedVolume> volume) { opened(std::move(volume)); },
+                .frame = [this](const FrameMessage& frame) { take_frame(frame); },
+                .trouble = [this](const std::string& message) { tell_trouble(message); },
+                .progress = [this](const RenderProgress& progress) { tell_progress(progress); }}) {
+  set_status("empty", "", "");
+}
+
+SharedView::~SharedView() {
+  document_.reset();
+  volume_.reset();
+}
+
+void SharedView::open(const SceneDescription& scene) { opening_.open(scene); }
+
+void SharedView::opened(std::shared_ptr<OpenedVolume> volume) {
+  SceneDescription scene = volume->session->session().description();
+  keep_screen_size(scene);
+  // What the rules need lives as long as the session, not this object's member.
+  const Document::Rules rules{
+      .resolve = [session = volume->session.get()](const SceneDescription& s) { return session->resolved(s); },
+      .check_paths =
+          [this](SceneDescription& s, const SceneDescription& before) {
+            roots_.resolve_paths(s, scene_paths(before));
+          }};
+  try {
+    Document document(std::move(scene), rules);
+    document_.emplace(std::move(document));
+  } catch (const Error& error) {
+    return set_status("failed", volume->name, error.what());
+  }
+  if (volume_) opening_.retire(std::move(volume_));
+  volume_ = std::move(volume);
+  *volume_->numbering = {last_frame_, revision_};
+  frame_.reset();
+  seek_s_.reset();
+  volume_->session->set_watched(!viewers_.empty());
+  volume_->session->set_split(split_);
+  set_status("ready", volume_->name, "");
+  show();
+  tell_scene();
+}
+
+void SharedView::keep_screen_size(SceneDescription& scene) const {
+  ImageDescription& image = scene.image;
+  if (screen_size_) {
+    image.width = screen_size_->first;
+    image.height = screen_size_->second;
+  }
+  const double shrink = std::sqrt(static_cast<double>(kMostPixels) / (double(image.width) * image.height));
+  if (shrink >= 1) return;
+  image.width = std::max(1, static_cast<int>(image.width * shrink));
+  image.height = std::max(1, static_cast<int>(image.height * shrink));
+}
+
+void SharedView::show() {
+  SceneDescription scene = document_->scene();
+  if (seek_s_ && scene.animation) {
+    try {
+      scene = volume_->session->resolved(scene_at(scene, *seek_s_));
+    } catch (const Error& error) {
+      return tell_trouble(error.what());
+    }
+  }
+  revision_ = volume_->session->show(std::move(scene)) + volume_->numbering->revisions_before;
+}
+
+void SharedView::join(const std::shared_ptr<Viewer>& viewer) {
+  viewers_[viewer.get()] = viewer;
+  if (volume_) volume_->session->set_watched(true);
+  viewer->send(shared_text(hello_message(settings_.samples, settings_.environments, roots_)));
+  viewer->send(shared_text(status_));
+  if (document_) viewer->send(shared_text(scene_message()));
+  if (split_) viewer->send(shared_text({{"type", "split"}, {"at", *split_}}));
+  if (frame_) viewer->offer(*frame_);
+  tell_all({{"type", "viewers"}, {"count", viewers_.size()}});
+}
+
+void SharedView::leave(Viewer& viewer) {
+  const auto found = viewers_.find(&viewer);
+  if (found == viewers_.end()) return;
+  viewers_.erase(found);
+  if (viewers_.empty() && volume_) volume_->session->set_watched(false);
+  tell_all({{"type", "viewers"}, {"count", viewers_.size()}});
+}
+
+void SharedView::close() {
+  const auto viewers = viewers_;  // each leaves as it is closed
+  for (const auto& [key, viewer] : viewers) viewer->close(boost::beast::websocket::close_code::going_away);
+}
+
+void SharedView::receive(Viewer& viewer, std::string_view text) {
+  try {
+    std::visit([&](const auto& message) { take(viewer, message); }, parse_message(text));
+  } catch (const Error& error) {
+    viewer.send(shared_text(refused(seq_of(text), error)));
+  } catch (const std::exception& error) {
+    viewer.send(shared_text(refused(seq_of(text), Error(ErrorCode::kInternal, "", error.what()))));
+  }
+}
+
+void SharedView::take(Viewer& from, const EditMessage& message) {
+  Document& document = open_document();
+  // A gesture is one viewer's; two may call theirs alike.
+  const std::string gesture = message.gesture.empty()
+                                  ? ""
+                                  : std::to_string(reinterpret_cast<std::uintptr_t>(&from)) + message.gesture;
+  const Json sections = document.edit(message.set, gesture);
+  if (!sections.empty()) show();
+  if (sections.contains("image"))
+    screen_size_ = {document.scene().image.width, document.scene().image.height};
+  Json edited = edited_message(sections);
+  if (!sections.empty()) tell_all(edited, &from);
+  edited["seq"] = message.seq;
+  from.send(shared_text(edited));
+}
+
+void SharedView::take(Viewer&, const UndoMessage&) {
+  if (!open_document().undo()) return;
+  show();
+  tell_scene();
+}
+
+void SharedView::take(Viewer&, const RedoMessage&) {
+  if (!open_document().redo()) return;
+  show();
+  tell_scene();
+}
+
+void SharedView::take(Viewer&, const LoadMessage& message) {
+  SceneDescription scene = parse_scene(text_of(message.scene), "scene");
+  roots_.resolve_paths(scene, document_ ? scene_paths(document_->scene()) : std::set<std::string>{});
+  keep_screen_size(scene);
+  if (!document_ || !(scene.volume == document_->scene().volume)) return open(scene);
+  document_->replace(scene);
+  show();
+  tell_scene();
+}
+
+void SharedView::take(Viewer&, const OpenMessage& message) {
+  if (message.path == kPhantomPath) return open(fresh_scene(std::string(kPhantomPath)));
+  const std::filesystem::path path = roots_.resolve(message.path);
+  if (lower_extension(path) != ".json") return open(fresh_scene(path.string()));
+  SceneDescription scene = read_scene(path);
+  roots_.resolve_paths(scene);
+  keep_screen_size(scene);
+  open(scene);
+}
+
+void SharedView::take(Viewer&, const SplitMessage& message) {
+  split_ = message.at;
+  if (volume_) volume_->session->set_split(split_);
+  tell_all({{"type", "split"}, {"at", or_null(split_)}});
+}
+
+void SharedView::take(Viewer&, const SeekMessage& message) {
+  open_document();
+  if (seek_s_ == message.time_s) return;
+  seek_s_ = message.time_s;
+  show();
+}
+
+void SharedView::take(Viewer&, const ProbeMessage&) {}
+void SharedView::take(Viewer&, const ExportMessage&) {}
+void SharedView::take(Viewer&, const CancelExportMessage&) {}
+
+void SharedView::take(Viewer& from, const ShownMessage& message) { from.shown(message.frame); }
+
+Document& SharedView::open_document() {
+  if (!document_) throw Error(ErrorCode::kBadParameter, "", "nothing is open");
+  return *document_;
+}
+
+SceneDescription SharedView::fresh_scene(const std::string& path) const {
+  SceneDescription scene = default_view_scene();
+  scene.volume.path = path;
+  keep_screen_size(scene);
+  return scene;
+}
+
+void SharedView::take_frame(const FrameMessage& frame) {
+  frame_ = frame;
+  last_frame_ = frame.number;
+  for (const auto& [key, viewer] : viewers_) viewer->offer(frame);
+}
+
+void SharedView::set_status(const std::string& stage, const std::string& name, const std::string& message) {
+  status_ = {{"type", "status"}, {"stage", stage}};
+  if (!name.empty()) status_["what"] = name;
+  if (!message.empty()) status_["message"] = message;
+  tell_all(status_);
+}
+
+void SharedView::tell_all(const Json& message, const Viewer* but) {
+  const auto text = shared_text(message);
+  const auto viewers = viewers_;  // one that is full leaves
+  for (const auto& [key, viewer] : viewers)
+    if (key != but) viewer->send(text);
+}
+
+void SharedView::tell_trouble(const std::string& message) {
+  tell_all({{"type", "trouble"}, {"message", message}});
+}
+
+void SharedView::tell_progress(const RenderProgress& progress) {
+  const auto text = shared_text({{"type", "progress"},
+                                 {"spp", progress.spp},
+                                 {"noise", or_null(progress.noise)},
+                                 {"remaining_s", or_null(progress.remaining_s)},
+                                 {"samples_per_s", progress.samples_per_s}});
+  const auto viewers = viewers_;
+  for (const auto& [key, viewer] : viewers) viewer->send_if_idle(text);
+}
+
+void SharedView::tell_scene() { tell_all(scene_message()); }
+
+SharedView::Json SharedView::scene_message() const {
+  return {{"type", "scene"},
+          {"revision", revision_},
+          {"scene", document_->json()},
+          {"can_undo", document_->can_undo()},
+          {"can_redo", document_->can_redo()}};
+}
+
+SharedView::Json SharedView::edited_message(const Json& sections) const {
+  return {{"type", "edited"},
+          {"revision", revision_},
+          {"sections", sections},
+          {"can_undo", document_->can_undo()},
+          {"can_redo", document_->can_redo()}};
+}
+
+}  // namespace voxlume::server

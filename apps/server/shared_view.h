@@ -1,0 +1,100 @@
+#pragma once
+#include <boost/asio/io_context.hpp>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/document.h"
+#include "server/hello.h"
+#include "server/messages.h"
+#include "server/opening.h"
+#include "server/roots.h"
+
+namespace voxlume::server {
+
+class Viewer;
+
+/// The one volume, scene and picture that everybody who is connected sees and changes. Everything happens on
+/// the thread of its io_context.
+class SharedView {
+ public:
+  struct Settings {
+    LiveOptions live;
+    std::vector<Sample> samples;
+    std::filesystem::path environments;  ///< a folder of environment maps beside the user's own; may be empty
+  };
+
+  SharedView(boost::asio::io_context& io, Settings settings, Roots roots);
+  ~SharedView();
+
+  const Roots& roots() const { return roots_; }
+
+  /// Opens a scene and its volume, whose paths may be read, instead of what is open.
+  void open(const SceneDescription& scene);
+
+  void join(const std::shared_ptr<Viewer>& viewer);
+  void leave(Viewer& viewer);
+  /// A text frame of a viewer. Whatever it says, nothing is thrown.
+  void receive(Viewer& viewer, std::string_view text);
+  /// Says goodbye to all viewers.
+  void close();
+
+  std::size_t viewer_count() const { return viewers_.size(); }
+  /// Null while none is open.
+  std::shared_ptr<OpenedVolume> volume() const { return volume_; }
+  /// Null while none is open.
+  const Document* document() const { return document_ ? &*document_ : nullptr; }
+
+ private:
+  using Json = nlohmann::json;
+
+  void take(Viewer& from, const EditMessage& message);
+  void take(Viewer& from, const UndoMessage&);
+  void take(Viewer& from, const RedoMessage&);
+  void take(Viewer& from, const LoadMessage& message);
+  void take(Viewer& from, const OpenMessage& message);
+  void take(Viewer& from, const SplitMessage& message);
+  void take(Viewer& from, const SeekMessage& message);
+  void take(Viewer& from, const ProbeMessage& message);
+  void take(Viewer& from, const ExportMessage& message);
+  void take(Viewer& from, const CancelExportMessage&);
+  void take(Viewer& from, const ShownMessage& message);
+
+  /// Throws Error while nothing is open.
+  Document& open_document();
+  /// What a volume file is opened with.
+  SceneDescription fresh_scene(const std::string& path) const;
+  void opened(std::shared_ptr<OpenedVolume> volume);
+  void take_frame(const FrameMessage& frame);
+  void set_status(const std::string& stage, const std::string& name, const std::string& message);
+  void show();
+  void tell_all(const Json& message, const Viewer* but = nullptr);
+  void tell_trouble(const std::string& message);
+  void tell_progress(const RenderProgress& progress);
+  void tell_scene();
+  Json scene_message() const;
+  Json edited_message(const Json& sections) const;
+  void keep_screen_size(SceneDescription& scene) const;
+
+  boost::asio::io_context& io_;
+  const Settings settings_;
+  Roots roots_;
+  std::map<const Viewer*, std::shared_ptr<Viewer>> viewers_;
+
+  std::shared_ptr<OpenedVolume> volume_;
+  std::optional<Document> document_;
+  std::uint64_t revision_ = 0;  ///< what was asked for last, as viewers know it
+  std::optional<FrameMessage> frame_;
+  std::uint64_t last_frame_ = 0;  ///< number of the newest frame, as viewers know it
+  Json status_;
+  std::optional<std::pair<int, int>> screen_size_;  ///< what a page asked for last
+  std::optional<double> split_, seek_s_;
+  Opening opening_;
+};
+
+}  // namespace voxlume::server

@@ -1,0 +1,21 @@
+#pragma once
+#include <filesystem>
+
+namespace voxlume::server {
+
+/// A folder of this process alone, removed with everything in it.
+class TemporaryFolder {
+ public:
+  /// Throws Error kInternal where none can be made.
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace voxlume::server
