@@ -7,6 +7,7 @@ const paths = {
   check: "M3 8.5l3.2 3L13 4.5",
   chevron: "M6 4l4 4-4 4",
   close: "M4 4l8 8M12 4l-8 8",
+  clip: "M4.5 1.5v10h10M1.5 4.5h10v10",
   copy: "M5.5 5.5h8v8h-8zM10.5 5.5v-3h-8v8h3",
   curve: "M2 13h12M2 13V3M3.5 11.5c3 0 3-7 5.5-7S11 8 13.5 8",
   delete: "M3 4.5h10M6.5 4.5V3h3v1.5M4.5 4.5l.6 8.5h5.8l.6-8.5M6.7 7v3.5M9.3 7v3.5",
@@ -43,7 +44,7 @@ const paths = {
   sun: "M8 11a3 3 0 1 0 0-6 3 3 0 0 0 0 6zM8 1.5v1.5M8 13v1.5M1.5 8H3M13 8h1.5",
   undo: "M3 6.5h7a3.5 3.5 0 0 1 0 7H7M6 3.5l-3 3 3 3",
   upload: "M8 10.5V3M4.7 6.3L8 3l3.3 3.3M3 13.5h10",
-  volume: "M8 1.8l5.5 3.1v6.2L8 14.2l-5.5-3.1V4.9z",
+  volume: "M8 1.8l5.5 3.1v6.2L8 14.2l-5.5-3.1V4.9zM2.5 4.9L8 8l5.5-3.1M8 8v6.2",
   warning: "M8 2.2l6.3 11.3H1.7zM8 6.5v3.5M8 12h.01",
 } as const;
 

@@ -32,9 +32,9 @@ interface Scenery {
 interface Place {
   x: number;
   y: number;
-  /** On the far side of the sphere, or outside the view and shown at its edge. */
+  /** On the far side of the sphere. */
   away: boolean;
-  /** Exactly where the light is seen. */
+  /** Where the light is seen; else it is outside the view or behind the eye, and shown at the view's edge. */
   exact: boolean;
 }
 
@@ -64,7 +64,7 @@ function positionedPlace(light: Light, { shown, camera, center, pxPerMm }: Scene
     (dy > 0 ? height - kEdge_px - center.y : center.y - kEdge_px) / Math.max(1e-6, Math.abs(dy)),
   );
   const share = Math.min(1, Math.max(0, fit));
-  return { x: center.x + dx * share, y: center.y + dy * share, away: true, exact: false };
+  return { x: center.x + dx * share, y: center.y + dy * share, away: false, exact: false };
 }
 
 /** Sets the distance of a point or rect light from what it faces, `factor` times as far. */
@@ -141,7 +141,7 @@ function Handle({ index, light, scenery }: { index: number; light: Light; scener
   const [r, g, b] = linear(light.color).map((c) => c / strength) as unknown as Vec3;
   const kindName = { directional: "Directional light", point: "Point light", rect: "Area light" }[light.kind];
   return (
-    <g class={`light${chosen ? " chosen" : ""}${place.away ? " away" : ""}`}>
+    <g class={`light${chosen ? " chosen" : ""}${place.away ? " away" : ""}${place.exact ? "" : " beyond"}`}>
       <line class="beam" x1={place.x} y1={place.y} x2={center.x} y2={center.y} />
       {corners.length > 0 && corners.every((corner) => corner.depth_mm > 0) && (
         <polygon class="area" points={corners.map(({ x, y }) => `${x},${y}`).join(" ")} />

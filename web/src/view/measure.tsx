@@ -114,6 +114,7 @@ export function Measurements() {
   const first = begun.value;
   const second = measuring.value ? pointed.value?.position_mm : undefined;
   const start = first && shown.project(first);
+  const end = first && second && shown.project(second);
   return (
     <g class="measurements">
       {measurements.value.map((one) => (
@@ -136,6 +137,7 @@ export function Measurements() {
         </g>
       ))}
       {first && second && <Line shown={shown} a={first} b={second} />}
+      {end && end.depth_mm > 0 && <circle class="dot" cx={end.x} cy={end.y} r={4} />}
       {start && start.depth_mm > 0 && <circle class="dot" cx={start.x} cy={start.y} r={4} />}
     </g>
   );

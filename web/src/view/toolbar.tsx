@@ -20,7 +20,7 @@ export function Toolbar() {
     <div class="tools floating" role="toolbar" aria-label="View tools" aria-orientation="vertical">
       <IconButton icon="measure" label="Measure distances" keys="M" pressed={measuring.value} onClick={toggleMeasuring} />
       <IconButton icon="light" label="Light handles" keys="L" pressed={lightHandles.value} onClick={toggleLights} />
-      <IconButton icon="box" label="Clip handles" keys="C" pressed={clipHandles.value} onClick={toggleClip} />
+      <IconButton icon="clip" label="Clip handles" keys="C" pressed={clipHandles.value} onClick={toggleClip} />
       <IconButton icon="split" label="Compare with the picture before the denoiser" keys="D" pressed={split.value !== null} onClick={toggleSplit} />
       <hr />
       <IconButton icon="fit" label="Fit the volume into the view" keys="F" onClick={fitView} />
@@ -34,7 +34,7 @@ export function Toolbar() {
   );
 }
 
-/** What the chosen tool wants, at the upper edge. */
+/** What the chosen tool wants, beside the tools. */
 export function ToolHint() {
   if (measuring.value)
     return (
