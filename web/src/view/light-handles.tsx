@@ -18,7 +18,9 @@ const lights = section("lights");
 
 /** Of the sphere of directional lights, by the smaller side of the view. */
 const kSphereShare = 0.38;
+/** What handles keep from the view's edges; at the left the tools are. */
 const kEdge_px = 22;
+const kLeftEdge_px = 66;
 
 interface Scenery {
   shown: ViewProjection;
@@ -48,19 +50,25 @@ function directionalPlace(light: Light, { camera, center, radius_px }: Scenery):
   };
 }
 
-function positionedPlace(light: Light, { shown, camera, center, pxPerMm }: Scenery): Place {
+/** Lights behind the eye, or just before it, are shown and moved by the scale of the target. */
+function isSeen(depth_mm: number, { shown, camera }: Scenery): boolean {
+  return depth_mm > 0.05 * Math.abs(shown.project(camera.target_mm).depth_mm);
+}
+
+function positionedPlace(light: Light, scenery: Scenery): Place {
+  const { shown, camera, center, pxPerMm } = scenery;
   const position = worldPosition(light, camera);
   const seen = shown.project(position);
   const { width, height } = viewSize.value;
   const inside = (x: number, y: number) =>
-    x >= kEdge_px && y >= kEdge_px && x <= width - kEdge_px && y <= height - kEdge_px;
-  if (seen.depth_mm > 0 && inside(seen.x, seen.y)) return { x: seen.x, y: seen.y, away: false, exact: true };
+    x >= kLeftEdge_px && y >= kEdge_px && x <= width - kEdge_px && y <= height - kEdge_px;
+  if (isSeen(seen.depth_mm, scenery) && inside(seen.x, seen.y)) return { x: seen.x, y: seen.y, away: false, exact: true };
   // Outside, or behind the eye: at the view's edge, in its direction from the target.
   const offset = sub(position, camera.target_mm);
   const dx = dot(offset, camera.right) * pxPerMm;
   const dy = -dot(offset, camera.up) * pxPerMm;
   const fit = Math.min(
-    (dx > 0 ? width - kEdge_px - center.x : center.x - kEdge_px) / Math.max(1e-6, Math.abs(dx)),
+    (dx > 0 ? width - kEdge_px - center.x : center.x - kLeftEdge_px) / Math.max(1e-6, Math.abs(dx)),
     (dy > 0 ? height - kEdge_px - center.y : center.y - kEdge_px) / Math.max(1e-6, Math.abs(dy)),
   );
   const share = Math.min(1, Math.max(0, fit));
@@ -95,17 +103,23 @@ function dragDirectional(index: number, light: Light, scenery: Scenery, start: P
 }
 
 function dragPositioned(index: number, light: Light, scenery: Scenery, start: Place, gesture: string) {
-  const { shown, camera, pxPerMm } = scenery;
+  const { shown, camera, center, pxPerMm } = scenery;
   const position = worldPosition(light, camera);
-  const scaleAtLight = start.exact ? shown.pxPerMm(shown.project(position).depth_mm) : pxPerMm;
+  const { depth_mm } = shown.project(position);
+  const behind_mm = dot(sub(position, camera.target_mm), camera.forward);
   return ({ dx, dy, stepY, event }: Drag) => {
     if (event.shiftKey) {
       const now = lights.peek()?.[index];
       if (now) changeDistance(index, now, camera, Math.exp(-stepY * 0.008), gesture);
       return;
     }
-    const by = add(scale(camera.right, dx / scaleAtLight), scale(camera.up, -dy / scaleAtLight));
-    edit([[`/lights/${index}/position_mm`, positionField(light, add(position, by), camera)]], gesture);
+    const x = start.x + dx;
+    const y = start.y + dy;
+    const inPlane = add(scale(camera.right, (x - center.x) / pxPerMm), scale(camera.up, (center.y - y) / pxPerMm));
+    const moved = isSeen(depth_mm, scenery)
+      ? shown.pointAtDepth(x, y, depth_mm)
+      : add(camera.target_mm, add(inPlane, scale(camera.forward, behind_mm)));
+    edit([[`/lights/${index}/position_mm`, positionField(light, moved, camera)]], gesture);
   };
 }
 
