@@ -28,8 +28,8 @@ class Access {
   bool has_cookie(std::string_view cookie_header) const {
     return is_token(cookie_value(cookie_header, cookie_name_));
   }
-  /// Whether a request's Host header names this server: the address bound to or localhost, with any port, as a
-  /// tunnel may have another. A server bound to every address answers to any address, and to its own name.
+  /// Whether a request's Host header names this server: the address bound to or localhost, with any port, as
+  /// a tunnel may have another. A server bound to every address answers to any address, and to its own name.
   bool is_host(std::string_view host_header) const;
 
  private:

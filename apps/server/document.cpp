@@ -179,7 +179,7 @@ Json Document::edit(const std::vector<FieldEdit>& fields, const std::string& ges
 
 void Document::replace(const SceneDescription& scene) { become(accept(scene), ""); }
 
-bool Document::take_step(std::deque<Step>& from, std::deque<Step>& to, Json Step::* members) {
+bool Document::take_step(std::deque<Step>& from, std::deque<Step>& to, Json Step::*members) {
   if (from.empty()) return false;
   Json scene = json_;
   for (const auto& [key, value] : (from.back().*members).items()) set_member(scene, "/" + key, value);

@@ -61,7 +61,7 @@ class Document {
 
   Accepted accept(SceneDescription scene) const;
   nlohmann::json become(Accepted accepted, const std::string& gesture);
-  bool take_step(std::deque<Step>& from, std::deque<Step>& to, nlohmann::json Step::* members);
+  bool take_step(std::deque<Step>& from, std::deque<Step>& to, nlohmann::json Step::*members);
   void forget_oldest();
 
   Rules rules_;

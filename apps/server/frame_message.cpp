@@ -28,9 +28,12 @@ const char* limit_name(LiveLimit limit) {
 json triple(Vec3f v) { return {v.x, v.y, v.z}; }
 
 json camera_json(const CameraView& camera) {
-  return {{"eye_mm", triple(camera.eye_mm)},         {"right", triple(camera.right)},
-          {"up", triple(camera.up)},                 {"forward", triple(camera.forward)},
-          {"half_width", camera.half_width},         {"half_height", camera.half_height},
+  return {{"eye_mm", triple(camera.eye_mm)},
+          {"right", triple(camera.right)},
+          {"up", triple(camera.up)},
+          {"forward", triple(camera.forward)},
+          {"half_width", camera.half_width},
+          {"half_height", camera.half_height},
           {"orthographic", camera.orthographic}};
 }
 
@@ -61,12 +64,11 @@ json header(const LiveFrame& frame, const FrameNumbering& numbering, bool jpeg, 
 FrameMessage FrameCoder::code(std::shared_ptr<const LiveFrame> frame, const FrameNumbering& numbering) {
   constexpr double kWeight = 0.2;
   if (frame->moving && frame->frame_s > 0)
-    mean_frame_s_ = mean_frame_s_ > 0 ? mean_frame_s_ + kWeight * (frame->frame_s - mean_frame_s_)
-                                      : frame->frame_s;
+    mean_frame_s_ =
+        mean_frame_s_ > 0 ? mean_frame_s_ + kWeight * (frame->frame_s - mean_frame_s_) : frame->frame_s;
   const bool jpeg = frame->moving && frame->picture.channels == 3;  // JPEG has no transparency
   const std::string picture = jpeg ? jpeg_bytes(frame->picture) : png_bytes(frame->picture);
-  const std::string text =
-      header(*frame, numbering, jpeg, mean_frame_s_ > 0 ? 1 / mean_frame_s_ : 0).dump();
+  const std::string text = header(*frame, numbering, jpeg, mean_frame_s_ > 0 ? 1 / mean_frame_s_ : 0).dump();
   std::string bytes;
   bytes.reserve(4 + text.size() + picture.size());
   for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(text.size() >> shift & 255);

@@ -9,9 +9,9 @@ namespace voxlume::server {
 
 /// A frame as viewers get it, coded once for all.
 struct FrameMessage {
-  std::uint64_t number = 0;                   ///< as viewers know it
-  std::shared_ptr<const LiveFrame> frame;     ///< what it shows
-  std::shared_ptr<const std::string> bytes;   ///< the binary message
+  std::uint64_t number = 0;                  ///< as viewers know it
+  std::shared_ptr<const LiveFrame> frame;    ///< what it shows
+  std::shared_ptr<const std::string> bytes;  ///< the binary message
 };
 
 /// Numbers that frames of a session have for viewers, to whom numbers of a later session go on.

@@ -1,16 +1,13 @@
 #include "server/hello.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
 
 #include "base/file_extension.h"
 #include "denoise/denoiser.h"
 #include "scene/material_library.h"
 #include "scene/presets.h"
 #include "scene/scene_file.h"
-#include "tonemap/srgb.h"
+#include "server/hex_text.h"
 
 namespace voxlume::server {
 
@@ -33,19 +30,12 @@ constexpr KnownSample kKnownSamples[] = {
     {"brodmann.nii.gz", "Brodmann areas, labels", "An atlas of the cortex"},
 };
 
-std::string hex(const Color& color) {
-  std::string out = "#";
-  for (const float x : color.linear)
-    out += fmt::format("{:02x}", static_cast<int>(std::lround(255 * srgb_from_linear(std::clamp(x, 0.0f, 1.0f)))));
-  return out;
-}
-
 json materials() {
   json out = json::array();
   for (const LibraryMaterial& material : material_library())
     out.push_back({{"name", material.description.name},
                    {"summary", material.summary},
-                   {"color", hex(material.description.color.value_or(Color{}))}});
+                   {"color", hex_text(material.description.color.value_or(Color{}))}});
   return out;
 }
 

@@ -20,7 +20,8 @@ constexpr std::size_t kMostName = 4096;
 
 json parse_object(std::string_view text) {
   const auto watch = [](int depth, json::parse_event_t event, json&) {
-    const bool opens = event == json::parse_event_t::object_start || event == json::parse_event_t::array_start;
+    const bool opens =
+        event == json::parse_event_t::object_start || event == json::parse_event_t::array_start;
     if (opens && depth >= kMostDepth) throw Error(ErrorCode::kBadFormat, "", "nested too deeply");
     return true;
   };
@@ -113,8 +114,8 @@ PageMessage parse_message(std::string_view frame) {
   if (type == "export") return ExportMessage{text(member(message, "file"), "/file")};
   if (type == "cancel_export") return CancelExportMessage{};
   if (type == "shown")
-    return ShownMessage{static_cast<std::uint64_t>(
-        number(member(message, "frame"), "/frame", 0, 9007199254740991.0))};
+    return ShownMessage{
+        static_cast<std::uint64_t>(number(member(message, "frame"), "/frame", 0, 9007199254740991.0))};
   refuse("/type", "found " + quote_text(type) + ", which no page says");
 }
 

@@ -54,8 +54,9 @@ void Opening::read(const SceneDescription& scene, std::uint64_t number) {
     auto opened = std::make_shared<OpenedVolume>();
     opened->name = name;
     opened->numbering = std::make_shared<FrameNumbering>();
-    opened->session = std::make_unique<LiveSession>(
-        scene, std::move(volume), session_listener(number, opened->numbering), options_);
+    opened->session = std::make_unique<LiveSession>(scene, std::move(volume),
+                                                    session_listener(number, opened->numbering), options_);
+    opened->sides = std::make_unique<SideVolumes>(opened->session->session().volume());
     tell(number, [this, number, opened] {
       shown_ = number;
       listener_.opened(opened);
@@ -75,8 +76,8 @@ LiveListener Opening::session_listener(std::uint64_t number, std::shared_ptr<Fra
     });
   };
   LiveListener out;
-  out.frame = [this, to_io, numbering, coder = std::make_shared<FrameCoder>()](
-                  std::shared_ptr<const LiveFrame> frame) {
+  out.frame = [this, to_io, numbering,
+               coder = std::make_shared<FrameCoder>()](std::shared_ptr<const LiveFrame> frame) {
     try {
       to_io([this, message = coder->code(std::move(frame), *numbering)] { listener_.frame(message); });
     } catch (const std::exception& error) {

@@ -9,6 +9,7 @@
 
 #include "render/live_session.h"
 #include "server/frame_message.h"
+#include "server/side_volumes.h"
 
 namespace voxlume::server {
 
@@ -16,6 +17,7 @@ namespace voxlume::server {
 struct OpenedVolume {
   std::string name;  ///< of its file or folder
   std::unique_ptr<LiveSession> session;
+  std::unique_ptr<SideVolumes> sides;         ///< what its scenes have beside it
   std::shared_ptr<FrameNumbering> numbering;  ///< set before the first frame is asked for
 };
 

@@ -20,20 +20,19 @@ bool is_plain(char c) {
 }
 
 std::string content_type(const fs::path& path) {
-  static const std::map<std::string, std::string> kTypes{
-      {".html", "text/html; charset=utf-8"},
-      {".js", "text/javascript; charset=utf-8"},
-      {".css", "text/css; charset=utf-8"},
-      {".svg", "image/svg+xml"},
-      {".png", "image/png"},
-      {".jpg", "image/jpeg"},
-      {".ico", "image/x-icon"},
-      {".json", "application/json"},
-      {".map", "application/json"},
-      {".txt", "text/plain; charset=utf-8"},
-      {".wasm", "application/wasm"},
-      {".webmanifest", "application/manifest+json"},
-      {".woff2", "font/woff2"}};
+  static const std::map<std::string, std::string> kTypes{{".html", "text/html; charset=utf-8"},
+                                                         {".js", "text/javascript; charset=utf-8"},
+                                                         {".css", "text/css; charset=utf-8"},
+                                                         {".svg", "image/svg+xml"},
+                                                         {".png", "image/png"},
+                                                         {".jpg", "image/jpeg"},
+                                                         {".ico", "image/x-icon"},
+                                                         {".json", "application/json"},
+                                                         {".map", "application/json"},
+                                                         {".txt", "text/plain; charset=utf-8"},
+                                                         {".wasm", "application/wasm"},
+                                                         {".webmanifest", "application/manifest+json"},
+                                                         {".woff2", "font/woff2"}};
   const auto found = kTypes.find(lower_extension(path));
   return found == kTypes.end() ? "application/octet-stream" : found->second;
 }

@@ -34,8 +34,8 @@ void ignore_warning(png_structp, png_const_charp) {}
 bool write_png(png_structp png, png_infop info, const Image8& picture, png_bytepp rows, std::string& out) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_write_fn(png, &out, append, nullptr);
-  png_set_IHDR(png, info, static_cast<png_uint_32>(picture.width), static_cast<png_uint_32>(picture.height), 8,
-               picture.channels == 4 ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+  png_set_IHDR(png, info, static_cast<png_uint_32>(picture.width), static_cast<png_uint_32>(picture.height),
+               8, picture.channels == 4 ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   // Differences of neighbours and runs of zeros: several times as fast as searching, and not much larger.
   png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
@@ -68,8 +68,8 @@ std::string jpeg_bytes(const Image8& picture) {
   std::string out(tjBufSize(picture.width, picture.height, TJSAMP_420), '\0');
   auto* bytes = reinterpret_cast<unsigned char*>(out.data());
   unsigned long size = out.size();
-  if (tjCompress2(coder.get(), picture.values.data(), picture.width, 0, picture.height, TJPF_RGB, &bytes, &size,
-                  TJSAMP_420, kJpegQuality, TJFLAG_NOREALLOC | TJFLAG_FASTDCT) != 0)
+  if (tjCompress2(coder.get(), picture.values.data(), picture.width, 0, picture.height, TJPF_RGB, &bytes,
+                  &size, TJSAMP_420, kJpegQuality, TJFLAG_NOREALLOC | TJFLAG_FASTDCT) != 0)
     fail(tjGetErrorStr2(coder.get()));
   out.resize(size);
   return out;

@@ -8,11 +8,12 @@
 
 namespace voxlume::server {
 
-/// The part of the disk that pages may name: what is below some folders, and single files and folders that the
-/// user named himself.
+/// The part of the disk that pages may name: what is below some folders, and single files and folders that
+/// the user named himself.
 class Roots {
  public:
-  /// Relative paths start from `folder`, which is the first root. Throws Error kFileNotFound unless it is one.
+  /// Relative paths start from `folder`, which is the first root. Throws Error kFileNotFound unless it is
+  /// one.
   explicit Roots(const std::filesystem::path& folder);
 
   /// Another root, or a single file. It is left out when it does not exist.

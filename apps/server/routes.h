@@ -19,6 +19,15 @@ class Routes {
  private:
   Reply page(const std::string& path, std::string_view if_none_match) const;
   void api(const Target& target, const Respond& respond) const;
+  /// Answers with what `job` returns, which runs on another thread and may throw Error.
+  void work(const Respond& respond, std::function<Reply()> job) const;
+  void labels(const Respond& respond) const;
+  void histogram(const Target& target, const Respond& respond) const;
+  void slice(const Target& target, const Respond& respond) const;
+  void picture(const std::string& extension, const Respond& respond) const;
+  Reply scene_file() const;
+  Reply thumbnail(const std::string& preset) const;
+  Reply finished_export(const std::string& file) const;
 
   SharedView& view_;
   PageFiles page_;

@@ -1,6 +1,7 @@
 #include "server/server.h"
 
 #include <fcntl.h>
+#include <signal.h>
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
@@ -9,6 +10,7 @@
 
 #include "scene/scene_file.h"
 #include "server/http_connection.h"
+#include "server/temporary_folder.h"
 #include "voxlume/error.h"
 
 namespace voxlume::server {
@@ -27,7 +29,8 @@ void close_on_exec(int descriptor) { ::fcntl(descriptor, F_SETFD, FD_CLOEXEC); }
 tcp::acceptor listen(asio::io_context& io, const std::string& address, unsigned short port) {
   error_code failed;
   const auto parsed = asio::ip::make_address(address, failed);
-  if (failed) throw Error(ErrorCode::kBadParameter, "--bind", "found \"" + address + "\", expected an IP address");
+  if (failed)
+    throw Error(ErrorCode::kBadParameter, "--bind", "found \"" + address + "\", expected an IP address");
   const tcp::endpoint endpoint(parsed, port);
   tcp::acceptor acceptor(io);
   acceptor.open(endpoint.protocol(), failed);
@@ -55,7 +58,8 @@ class Listener {
       close_on_exec(socket.native_handle());
       // One too many is closed without a word.
       if (connections_.use_count() <= kMostConnections)
-        std::make_shared<HttpConnection>(boost::beast::tcp_stream(std::move(socket)), parts_, connections_)->read();
+        std::make_shared<HttpConnection>(boost::beast::tcp_stream(std::move(socket)), parts_, connections_)
+            ->read();
       accept();
     });
   }
@@ -81,12 +85,18 @@ class Listener {
   const std::shared_ptr<void> connections_ = std::make_shared<int>();  ///< shared by all that are open
 };
 
-Roots allowed_roots(const ServerOptions& options) {
+Roots allowed_roots(const ServerOptions& options, const std::filesystem::path& uploads) {
   Roots roots(options.folder);
+  roots.add(uploads);
   if (!options.samples.empty()) roots.add(options.samples);
   if (options.scene)
     for (const std::string& path : scene_paths(*options.scene)) roots.add(path);
   return roots;
+}
+
+bool is_ignored(int signal) {
+  struct sigaction action {};
+  return ::sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
 std::string url_host(const std::string& address) {
@@ -100,15 +110,20 @@ void serve(const ServerOptions& options, const std::function<void(const std::str
   tcp::acceptor acceptor = listen(io, options.address, options.port);
   const unsigned short port = acceptor.local_endpoint().port();
   const Access access(make_token(), options.address, port);
+  TemporaryFolder temporary;
+  Uploads uploads(temporary.path() / "uploads", options.most_upload_bytes);
   SharedView view(io,
                   {.live = options.live,
                    .samples = find_samples(options.samples),
-                   .environments = options.samples.empty() ? "" : options.samples / "env"},
-                  allowed_roots(options));
+                   .environments = options.samples.empty() ? "" : options.samples / "env",
+                   .program = options.program,
+                   .temporary = temporary.path()},
+                  allowed_roots(options, temporary.path() / "uploads"));
   const Routes routes(view, PageFiles(options.page));
-  Listener listener(std::move(acceptor), {access, view, routes});
+  Listener listener(std::move(acceptor), {access, view, routes, uploads});
 
   asio::signal_set signals(io, SIGINT, SIGTERM);
+  if (!is_ignored(SIGHUP)) signals.add(SIGHUP);  // nohup ignores it
   asio::steady_timer farewell(io);
   signals.async_wait([&](error_code, int) {
     signals.clear();  // the next one ends the process
@@ -126,6 +141,9 @@ void serve(const ServerOptions& options, const std::function<void(const std::str
   listener.accept();
   started("http://" + url_host(options.address) + ":" + std::to_string(port) + "/?token=" + access.token());
   io.run();
+  // What is being read now may take a while to end; the files need not wait for it.
+  view.end();
+  temporary.remove();
 }
 
 }  // namespace voxlume::server

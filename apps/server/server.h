@@ -11,9 +11,9 @@
 namespace voxlume::server {
 
 struct ServerOptions {
-  std::string address = "127.0.0.1";  ///< to listen at
-  unsigned short port = 0;            ///< 0: any that is free
-  std::filesystem::path folder;       ///< whose files pages may open
+  std::string address = "127.0.0.1";      ///< to listen at
+  unsigned short port = 0;                ///< 0: any that is free
+  std::filesystem::path folder;           ///< whose files pages may open
   std::optional<SceneDescription> scene;  ///< opened at the start; its paths may be anywhere
   std::filesystem::path program;          ///< this program's file, which renders animations
   std::filesystem::path samples;          ///< a folder of sample data; may be empty

@@ -1,5 +1,6 @@
 #include "server/shared_view.h"
 
+#include <boost/asio/post.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 #include <cmath>
 
@@ -7,6 +8,7 @@
 #include "scene/animation.h"
 #include "scene/scene_file.h"
 #include "server/hello.h"
+#include "server/probe.h"
 #include "server/viewer.h"
 #include "voxlume/error.h"
 
@@ -14,6 +16,9 @@ namespace voxlume::server {
 namespace {
 
 using nlohmann::json;
+
+/// A still picture follows the last edit by less than this, unless there is trouble.
+constexpr auto kStillPatience = std::chrono::seconds(20);
 
 std::shared_ptr<const std::string> shared_text(const json& message) {
   return std::make_shared<const std::string>(text_of(message));
@@ -34,6 +39,10 @@ SharedView::SharedView(boost::asio::io_context& io, Settings settings, Roots roo
     : io_(io),
       settings_(std::move(settings)),
       roots_(std::move(roots)),
+      still_timer_(io),
+      thumbnails_(io),
+      exports_(io, settings_.program, settings_.temporary / "exports",
+               [this](const Json& m) { tell_all(m); }),
       opening_(io, settings_.live,
                {.status = [this](const auto&... of) { set_status(of...); },
                 .opened = [this](std::shared_ptr<OpenedVolume> volume) { opened(std::move(volume)); },
@@ -44,6 +53,7 @@ SharedView::SharedView(boost::asio::io_context& io, Settings settings, Roots roo
 }
 
 SharedView::~SharedView() {
+  end();
   document_.reset();
   volume_.reset();
 }
@@ -54,12 +64,12 @@ void SharedView::opened(std::shared_ptr<OpenedVolume> volume) {
   SceneDescription scene = volume->session->session().description();
   keep_screen_size(scene);
   // What the rules need lives as long as the session, not this object's member.
-  const Document::Rules rules{
-      .resolve = [session = volume->session.get()](const SceneDescription& s) { return session->resolved(s); },
-      .check_paths =
-          [this](SceneDescription& s, const SceneDescription& before) {
-            roots_.resolve_paths(s, scene_paths(before));
-          }};
+  const Document::Rules rules{.resolve = [session = volume->session.get()](
+                                             const SceneDescription& s) { return session->resolved(s); },
+                              .check_paths =
+                                  [this](SceneDescription& s, const SceneDescription& before) {
+                                    roots_.resolve_paths(s, scene_paths(before));
+                                  }};
   try {
     Document document(std::move(scene), rules);
     document_.emplace(std::move(document));
@@ -71,7 +81,8 @@ void SharedView::opened(std::shared_ptr<OpenedVolume> volume) {
   *volume_->numbering = {last_frame_, revision_};
   frame_.reset();
   seek_s_.reset();
-  volume_->session->set_watched(!viewers_.empty());
+  thumbnails_.forget();
+  watch_or_rest();
   volume_->session->set_split(split_);
   set_status("ready", volume_->name, "");
   show();
@@ -104,10 +115,11 @@ void SharedView::show() {
 
 void SharedView::join(const std::shared_ptr<Viewer>& viewer) {
   viewers_[viewer.get()] = viewer;
-  if (volume_) volume_->session->set_watched(true);
+  watch_or_rest();
   viewer->send(shared_text(hello_message(settings_.samples, settings_.environments, roots_)));
   viewer->send(shared_text(status_));
   if (document_) viewer->send(shared_text(scene_message()));
+  if (!exports_.state().is_null()) viewer->send(shared_text(exports_.state()));
   if (split_) viewer->send(shared_text({{"type", "split"}, {"at", *split_}}));
   if (frame_) viewer->offer(*frame_);
   tell_all({{"type", "viewers"}, {"count", viewers_.size()}});
@@ -117,13 +129,19 @@ void SharedView::leave(Viewer& viewer) {
   const auto found = viewers_.find(&viewer);
   if (found == viewers_.end()) return;
   viewers_.erase(found);
-  if (viewers_.empty() && volume_) volume_->session->set_watched(false);
+  watch_or_rest();
   tell_all({{"type", "viewers"}, {"count", viewers_.size()}});
 }
 
 void SharedView::close() {
   const auto viewers = viewers_;  // each leaves as it is closed
   for (const auto& [key, viewer] : viewers) viewer->close(boost::beast::websocket::close_code::going_away);
+}
+
+void SharedView::end() {
+  workers_.stop();
+  workers_.join();
+  exports_.end();
 }
 
 void SharedView::receive(Viewer& viewer, std::string_view text) {
@@ -197,9 +215,26 @@ void SharedView::take(Viewer&, const SeekMessage& message) {
   show();
 }
 
-void SharedView::take(Viewer&, const ProbeMessage&) {}
-void SharedView::take(Viewer&, const ExportMessage&) {}
-void SharedView::take(Viewer&, const CancelExportMessage&) {}
+void SharedView::take(Viewer& from, const ProbeMessage& message) {
+  Json answer{{"type", "probe"}, {"id", message.id}, {"hit", false}};
+  const auto place = frame_ ? place_in_picture(*frame_->frame, message.x, message.y) : std::nullopt;
+  if (!place) return from.send(shared_text(answer));
+  work([this, volume = volume_, scene = document_->scene(), place = *place, answer,
+        viewer = from.weak_from_this()]() mutable {
+    answer["hit"] = true;
+    answer.update(data_at(volume->session->session().volume(), place));
+    answer["labels"] = labels_at(scene, *volume->sides, place);
+    boost::asio::post(io_, [viewer, text = shared_text(answer)] {
+      if (const auto to = viewer.lock()) to->send(text);
+    });
+  });
+}
+
+void SharedView::take(Viewer&, const ExportMessage& message) {
+  exports_.start(open_document().scene(), message.file);
+}
+
+void SharedView::take(Viewer&, const CancelExportMessage&) { exports_.cancel(); }
 
 void SharedView::take(Viewer& from, const ShownMessage& message) { from.shown(message.frame); }
 
@@ -219,7 +254,42 @@ void SharedView::take_frame(const FrameMessage& frame) {
   frame_ = frame;
   last_frame_ = frame.number;
   for (const auto& [key, viewer] : viewers_) viewer->offer(frame);
+  if (is_current_still(frame)) hand_out_stills(frame.frame);
 }
+
+void SharedView::watch_or_rest() {
+  if (volume_) volume_->session->set_watched(!viewers_.empty() || !awaiting_still_.empty());
+}
+
+bool SharedView::is_current_still(const FrameMessage& frame) const {
+  return !frame.frame->moving && frame.frame->revision + volume_->numbering->revisions_before == revision_;
+}
+
+void SharedView::with_still_picture(std::function<void(std::shared_ptr<const LiveFrame>)> use) {
+  open_document();
+  if (frame_ && is_current_still(*frame_)) return use(frame_->frame);
+  awaiting_still_.push_back(std::move(use));
+  if (awaiting_still_.size() > 1) return;
+  watch_or_rest();
+  still_timer_.expires_after(kStillPatience);
+  still_timer_.async_wait([this](boost::system::error_code failed) {
+    if (!failed) hand_out_stills(nullptr);
+  });
+}
+
+void SharedView::hand_out_stills(const std::shared_ptr<const LiveFrame>& frame) {
+  if (awaiting_still_.empty()) return;
+  still_timer_.cancel();
+  for (const auto& use : std::exchange(awaiting_still_, {})) use(frame);
+  watch_or_rest();
+}
+
+std::shared_ptr<const std::string> SharedView::thumbnail(const std::string& preset) {
+  const SceneDescription& scene = open_document().scene();
+  return thumbnails_.find(preset, *volume_, scene);
+}
+
+void SharedView::work(std::function<void()> job) { boost::asio::post(workers_, std::move(job)); }
 
 void SharedView::set_status(const std::string& stage, const std::string& name, const std::string& message) {
   status_ = {{"type", "status"}, {"stage", stage}};

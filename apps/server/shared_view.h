@@ -1,5 +1,7 @@
 #pragma once
 #include <boost/asio/io_context.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/thread_pool.hpp>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -10,10 +12,12 @@
 #include <vector>
 
 #include "server/document.h"
+#include "server/exports.h"
 #include "server/hello.h"
 #include "server/messages.h"
 #include "server/opening.h"
 #include "server/roots.h"
+#include "server/thumbnails.h"
 
 namespace voxlume::server {
 
@@ -27,6 +31,8 @@ class SharedView {
     LiveOptions live;
     std::vector<Sample> samples;
     std::filesystem::path environments;  ///< a folder of environment maps beside the user's own; may be empty
+    std::filesystem::path program;       ///< what renders animations
+    std::filesystem::path temporary;     ///< a folder for what is removed at the end
   };
 
   SharedView(boost::asio::io_context& io, Settings settings, Roots roots);
@@ -43,12 +49,25 @@ class SharedView {
   void receive(Viewer& viewer, std::string_view text);
   /// Says goodbye to all viewers.
   void close();
+  /// Ends what other processes do; after this no file is written any more.
+  void end();
 
   std::size_t viewer_count() const { return viewers_.size(); }
   /// Null while none is open.
   std::shared_ptr<OpenedVolume> volume() const { return volume_; }
   /// Null while none is open.
   const Document* document() const { return document_ ? &*document_ : nullptr; }
+  const Exports& exports() const { return exports_; }
+  const std::filesystem::path& temporary() const { return settings_.temporary; }
+
+  /// The picture of a preset; null while it is not drawn. Throws Error, those of Thumbnails::find() and of
+  /// nothing being open.
+  std::shared_ptr<const std::string> thumbnail(const std::string& preset);
+  /// Calls `use` with the picture of the scene as it is now at its full size, as soon as there is one; with
+  /// null where that takes too long.
+  void with_still_picture(std::function<void(std::shared_ptr<const LiveFrame>)> use);
+  /// Does what takes a while on another thread.
+  void work(std::function<void()> job);
 
  private:
   using Json = nlohmann::json;
@@ -71,6 +90,9 @@ class SharedView {
   SceneDescription fresh_scene(const std::string& path) const;
   void opened(std::shared_ptr<OpenedVolume> volume);
   void take_frame(const FrameMessage& frame);
+  void watch_or_rest();
+  bool is_current_still(const FrameMessage& frame) const;
+  void hand_out_stills(const std::shared_ptr<const LiveFrame>& frame);
   void set_status(const std::string& stage, const std::string& name, const std::string& message);
   void show();
   void tell_all(const Json& message, const Viewer* but = nullptr);
@@ -94,7 +116,12 @@ class SharedView {
   Json status_;
   std::optional<std::pair<int, int>> screen_size_;  ///< what a page asked for last
   std::optional<double> split_, seek_s_;
+  std::vector<std::function<void(std::shared_ptr<const LiveFrame>)>> awaiting_still_;
+  boost::asio::steady_timer still_timer_;
+  Thumbnails thumbnails_;
+  Exports exports_;
   Opening opening_;
+  boost::asio::thread_pool workers_{2};
 };
 
 }  // namespace voxlume::server

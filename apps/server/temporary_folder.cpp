@@ -18,7 +18,7 @@ TemporaryFolder::TemporaryFolder() {
   path_ = fs::canonical(name);
 }
 
-TemporaryFolder::~TemporaryFolder() {
+void TemporaryFolder::remove() {
   std::error_code ignored;
   fs::remove_all(path_, ignored);
 }

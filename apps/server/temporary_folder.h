@@ -8,11 +8,13 @@ class TemporaryFolder {
  public:
   /// Throws Error kInternal where none can be made.
   TemporaryFolder();
-  ~TemporaryFolder();
+  ~TemporaryFolder() { remove(); }
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
+  /// Now, and not only at the end.
+  void remove();
 
  private:
   std::filesystem::path path_;

@@ -26,7 +26,8 @@ constexpr std::size_t kMostWaitingTexts = 5000;
 }  // namespace
 
 bool RateLimit::take(Time now) {
-  if (last_) left_ = std::min(burst_, left_ + per_second_ * std::chrono::duration<double>(now - *last_).count());
+  if (last_)
+    left_ = std::min(burst_, left_ + per_second_ * std::chrono::duration<double>(now - *last_).count());
   last_ = now;
   if (left_ < 1) return false;
   left_ -= 1;
@@ -41,7 +42,8 @@ void Viewer::accept(const Request& request) {
   stream.expires_never();
   error_code ignored;
   stream.socket().set_option(boost::asio::ip::tcp::no_delay(true), ignored);
-  socket_.set_option(websocket::stream_base::timeout{std::chrono::seconds(20), std::chrono::seconds(60), true});
+  socket_.set_option(
+      websocket::stream_base::timeout{std::chrono::seconds(20), std::chrono::seconds(60), true});
   socket_.read_message_max(kMostMessageBytes);
   socket_.auto_fragment(false);
   socket_.async_accept(request, [self = shared_from_this()](error_code failed) {
