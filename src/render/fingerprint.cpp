@@ -56,15 +56,19 @@ std::string volume_digest(const Volume& volume, const VolumeStatistics& statisti
   return digest.text();
 }
 
-std::string scene_fingerprint(const SceneDescription& scene, const std::string& volume_digest) {
-  SceneDescription samples = scene;
+SceneDescription scene_of_samples(SceneDescription scene) {
   const ImageDescription defaults;
-  samples.image.spp = defaults.spp;
-  samples.image.seconds = defaults.seconds;
-  samples.image.noise = defaults.noise;
-  samples.image.exposure_ev = defaults.exposure_ev;
-  samples.image.tone_curve = defaults.tone_curve;
-  return fmt::format("voxlume {}\n{}\n{}", VOXLUME_VERSION, volume_digest, scene_text(samples));
+  scene.image.spp = defaults.spp;
+  scene.image.seconds = defaults.seconds;
+  scene.image.noise = defaults.noise;
+  scene.image.exposure_ev = defaults.exposure_ev;
+  scene.image.tone_curve = defaults.tone_curve;
+  return scene;
+}
+
+std::string scene_fingerprint(const SceneDescription& scene, const std::string& volume_digest) {
+  return fmt::format("voxlume {}\n{}\n{}", VOXLUME_VERSION, volume_digest,
+                     scene_text(scene_of_samples(scene)));
 }
 
 std::string picture_digest(const SceneDescription& scene, const std::string& volume_digest) {

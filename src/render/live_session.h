@@ -40,8 +40,8 @@ struct LiveFrame {
   LiveLimit limit = LiveLimit::kTracing;
 };
 
-/// Whom a LiveSession tells. All are called by its own thread, one at a time, and may be empty; they must not
-/// throw, wait for the session or destroy it.
+/// Whom a LiveSession tells: one call at a time, by threads of its own. All may be empty; they must not throw,
+/// wait for the session or destroy it.
 struct LiveListener {
   /// A new picture. While this runs nothing is traced, so that what it does counts as the frame's time.
   std::function<void(std::shared_ptr<const LiveFrame>)> frame;
@@ -76,6 +76,7 @@ class LiveSession {
 
   /// `scene` with everything open chosen from the volume. Throws Error, those of resolve(). Any thread.
   SceneDescription resolved(const SceneDescription& scene) const;
+  /// Its volume and description; what is compiled is for the session's own thread alone.
   const Session& session() const { return session_; }
 
   /// Asks for the picture of `scene`, which is resolved and of this volume, in place of what was asked before.

@@ -24,4 +24,9 @@ void PictureDenoiser::apply(const Film& film, const CompiledScene& scene, Image&
   image.rgba = compose_picture(frame_, denoised_, transparent).rgba;
 }
 
+void PictureDenoiser::forget() {
+  denoiser_->forget();
+  gradients_.forget();
+}
+
 }  // namespace voxlume

@@ -27,6 +27,9 @@ class PictureDenoiser {
   /// denoiser_layers().
   void apply(const Film& film, const CompiledScene& scene, Image& image);
 
+  /// The next picture has nothing to do with those before.
+  void forget();
+
  private:
   const DenoiserKind& kind_;
   std::unique_ptr<Denoiser> denoiser_;

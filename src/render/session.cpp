@@ -14,7 +14,11 @@ Session::Session(const SceneDescription& scene, Volume volume)
       description_(resolve(scene, volume_, statistics_)) {}
 
 SceneDescription Session::frame_description(int frame) const {
-  return resolve(scene_of_frame(description_, frame), volume_, statistics_);
+  return resolved(scene_of_frame(description_, frame));
+}
+
+SceneDescription Session::resolved(const SceneDescription& scene) const {
+  return resolve(scene, volume_, statistics_);
 }
 
 void Session::compile(SceneDescription scene, const ListProgress& progress) {

@@ -16,11 +16,16 @@ class Session {
   /// Takes the volume's statistics and resolves `scene`. Throws Error, those of resolve().
   Session(const SceneDescription& scene, Volume volume);
 
+  const Volume& volume() const { return volume_; }
+  const VolumeStatistics& statistics() const { return statistics_; }
   /// The scene with everything chosen in it, its animation too.
   const SceneDescription& description() const { return description_; }
   /// The scene of one frame (scene_of_frame), everything chosen. Throws Error kBadParameter for values that
   /// do not go together, or choices of a preset that there is not.
   SceneDescription frame_description(int frame) const;
+
+  /// `scene`, of this session's volume, with everything open chosen. Throws Error, those of resolve().
+  SceneDescription resolved(const SceneDescription& scene) const;
 
   /// Makes `scene`, resolved and of this session's volume, what compiled() is; its animation is left out.
   /// Throws Error: those of CompiledScene, whose `progress` this is.

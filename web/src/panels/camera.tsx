@@ -82,7 +82,7 @@ export function CameraPanel() {
         <Slider label="Focus distance" hint="Of the sharp plane from the eye" unit="mm" min={1} max={Math.max(1000, 2 * (targetDepth ?? 500))} hardMax={1e9} digits={1}
           disabled={camera.aperture_radius_mm === 0} value={camera.focus_mm ?? targetDepth ?? 0} onChange={set("focus_mm")} />
         <div class="row-actions">
-          <Button primary={picking.value} title="Click the point that is to be sharp" onClick={() => void pickPoint().then((answer) => answer && focusOn(answer.hit ? answer.position_mm : null))}>
+          <Button primary={picking.value} title="Click the point that is to be sharp" onClick={() => void pickPoint().then((answer) => answer && focusOn(answer.position_mm))}>
             {picking.value ? "Click into the picture" : "Focus on a point"}
           </Button>
           <Button disabled={camera.focus_mm === undefined} onClick={() => edit([["/camera/focus_mm", null]])}>Focus on the target</Button>

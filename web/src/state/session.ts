@@ -1,8 +1,6 @@
 import { signal, type ReadonlySignal } from "@preact/signals";
 import { on, send } from "./connection";
 import type { ExportState, Hello, Probe, Status } from "./protocol";
-import { showToast } from "../ui/toast";
-import { refusal } from "./scene";
 
 /** What the server says about the session besides scene and pictures. */
 
@@ -61,7 +59,3 @@ on("status", (message) => (statusSignal.value = message));
 on("export", (message) => (exportSignal.value = message));
 on("split", (message) => (splitSignal.value = message.at));
 on("viewers", (message) => (viewersSignal.value = message.count));
-on("trouble", (message) => showToast({ tone: "warning", text: message.message }));
-refusal.subscribe((what) => {
-  if (what) showToast({ tone: "warning", text: `${what.where}: ${what.message}` });
-});

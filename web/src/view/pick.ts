@@ -1,7 +1,6 @@
 import { signal } from "@preact/signals";
 import type { Probe } from "../state/protocol";
-import { probe } from "../state/session";
-import { view } from "./overlay";
+import { probeAt } from "./probing";
 
 /** Whether the next click into the picture chooses a point. */
 export const picking = signal(false);
@@ -30,11 +29,7 @@ export function pickPoint(): Promise<Probe | null> {
         event.preventDefault();
         event.stopImmediatePropagation();
         const box = area.getBoundingClientRect();
-        const rect = view.peek()?.rect;
-        if (!rect) return end(null);
-        const x = (event.clientX - box.left - rect.x) / rect.width;
-        const y = (event.clientY - box.top - rect.y) / rect.height;
-        end(x >= 0 && x <= 1 && y >= 0 && y <= 1 ? probe(x, y) : null);
+        end(probeAt(event.clientX - box.left, event.clientY - box.top));
       },
       options,
     );

@@ -7,7 +7,7 @@ import { hello } from "../../state/session";
 import type { Scene } from "../../state/scene-types";
 import { labels, type LabelName } from "../../state/volume";
 import { Button, ColorField, IconButton, Section, Select, Slider, Toggle } from "../../ui/controls";
-import { FilePicker } from "../../ui/file-picker";
+import { FilePicker } from "../file-picker";
 import { Icon } from "../../ui/icons";
 import { materialNames } from "../transfer/point-fields";
 import { addProxy, nameOfPath } from "../transfer/proxies";
@@ -46,7 +46,7 @@ export function LabelsPanel() {
         </Section>
       )}
       {picking && (
-        <FilePicker title="Add a label volume" kinds={["volume"]} onClose={() => setPicking(false)}
+        <FilePicker title="Add a label volume" onClose={() => setPicking(false)}
           onPick={(path) => {
             setPicking(false);
             setChosen(addProxy(of, { name: nameOfPath(path), path, lookup: "nearest" }));

@@ -1,5 +1,5 @@
 import { joinScale, splitScale } from "../../color";
-import { dot, scale, add, sub } from "../../geometry/vec3";
+import { directionField, facedPoint, positionField, worldDirection, worldPosition } from "../../geometry/light-place";
 import { placed, placeOf, type LightPlace } from "../../model/light-motion";
 import { edit, scene } from "../../state/scene";
 import { frame } from "../../state/frame";
@@ -15,23 +15,16 @@ function intensityRange(light: Light, distance: number): { min: number; max: num
 }
 
 /** `light` attached to the other, and where it was: by the camera of the picture on screen. */
-export function reattached(light: Light, to: Attachment, target: Vec3): Light {
-  const camera = frame.peek()?.header.camera;
-  if (!camera || light.attached_to === to) return { ...light, attached_to: to };
-  const axes: Vec3[] = [camera.right, camera.up, scale(camera.forward, -1)];
-  const vector = (v: Vec3): Vec3 =>
-    to === "camera"
-      ? (axes.map((axis) => dot(v, axis)) as unknown as Vec3)
-      : axes.reduce<Vec3>((sum, axis, i) => add(sum, scale(axis, v[i]!)), [0, 0, 0]);
-  const point = (p: Vec3): Vec3 => (to === "camera" ? vector(sub(p, target)) : add(target, vector(p)));
+function reattached(light: Light, to: Attachment, target_mm: Vec3): Light {
+  const seen = frame.peek()?.header.camera;
+  if (!seen || light.attached_to === to) return { ...light, attached_to: to };
+  const camera = { ...seen, target_mm };
   const { up: _, ...rest } = light;
-  return {
-    ...rest,
-    attached_to: to,
-    ...(light.direction ? { direction: vector(light.direction) } : {}),
-    ...(light.position_mm ? { position_mm: point(light.position_mm) } : {}),
-    ...(light.target_mm ? { target_mm: point(light.target_mm) } : {}),
-  };
+  const out: Light = { ...rest, attached_to: to };
+  if (light.direction) out.direction = directionField(out, worldDirection(light, camera), camera);
+  if (light.position_mm) out.position_mm = positionField(out, worldPosition(light, camera), camera);
+  if (light.target_mm) out.target_mm = positionField(out, facedPoint(light, camera), camera);
+  return out;
 }
 
 /** Everything of the chosen light. */

@@ -3,7 +3,7 @@ import { mostProxies } from "../../model/rules";
 import { edit, newGesture } from "../../state/scene";
 import type { Proxy, Scene } from "../../state/scene-types";
 import { Button, Field, IconButton, Select, Slider, Toggle } from "../../ui/controls";
-import { FilePicker } from "../../ui/file-picker";
+import { FilePicker } from "../file-picker";
 
 /** A name that no other proxy has. */
 export function freeName(of: Scene, wished: string): string {
@@ -77,7 +77,7 @@ export function Proxies({ of }: { of: Scene }) {
       {picking && (
         <FilePicker
           title="Add a volume"
-          kinds={["volume"]}
+         
           onClose={() => setPicking(false)}
           onPick={(path) => {
             setPicking(false);

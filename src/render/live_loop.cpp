@@ -1,0 +1,393 @@
+#include "render/live_loop.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "integrator/path_tracer.h"
+#include "render/film_image.h"
+#include "render/fingerprint.h"
+#include "tonemap/tone_map.h"
+#include "voxlume/error.h"
+
+namespace voxlume {
+namespace {
+
+/// Passes over what is important, and their looks, while the view moves: its lists are made for every frame.
+constexpr int kMovingRayPasses = 4;
+/// What a first still picture may take before it is shown [s].
+constexpr double kFirstStill_s = 0.25;
+/// As many samples make the standard error known; the render loop looks at it from there on, too.
+constexpr int kNoiseFrom = 8;
+/// A still picture is shown again after so many times what showing it takes, but not more often than this.
+constexpr double kShowShare = 4, kShowEvery_s = 0.15;
+
+double seconds(std::chrono::steady_clock::duration d) { return std::chrono::duration<double>(d).count(); }
+
+/// Calls `work` and gives the seconds it took.
+template <class Work>
+double timed(Work&& work) {
+  const auto begin = std::chrono::steady_clock::now();
+  work();
+  return seconds(std::chrono::steady_clock::now() - begin);
+}
+
+/// The scene without what the film does not depend on.
+SceneDescription scene_of_film(SceneDescription scene) {
+  scene = scene_of_samples(std::move(scene));
+  scene.render.denoise = "none";
+  scene.image.aovs.clear();
+  return scene;
+}
+
+/// Whether points in both scenes look alike but for light: what a denoiser has gathered is of use.
+bool same_matter(const SceneDescription& a, const SceneDescription& b) {
+  return a.transfer == b.transfer && a.proxies == b.proxies && a.labels == b.labels &&
+         a.materials == b.materials && a.material == b.material && a.visibility == b.visibility &&
+         a.illustration == b.illustration && a.render == b.render;
+}
+
+void clear(RenderState& state) {
+  for (const std::span<std::byte> sums : state.film.accumulators())
+    std::memset(sums.data(), 0, sums.size());
+  state.counters = {};
+  state.elapsed_s = 0;
+}
+
+/// An empty state, `old` if it is of that kind.
+void prepare(std::optional<RenderState>& state, int width, int height, FilmLayers layers) {
+  if (state && state->film.width() == width && state->film.height() == height &&
+      state->film.layers() == layers)
+    clear(*state);
+  else
+    state.emplace(RenderState{Film(width, height, layers), {}, 0});
+}
+
+std::vector<float> depths(const Film& film) {
+  std::vector<float> depth_mm(film.pixel_count());
+  for (int y = 0, i = 0; y < film.height(); ++y)
+    for (int x = 0; x < film.width(); ++x, ++i)
+      depth_mm[static_cast<std::size_t>(i)] = static_cast<float>(film.depth_mm(x, y));
+  return depth_mm;
+}
+
+/// Columns of `from` left of `end` in place of those of `to`, of the same size.
+void copy_columns(const Image& from, int end, Image& to) {
+  for (int y = 0; y < to.height; ++y) std::copy_n(from.pixel(0, y), 4 * end, to.pixel(0, y));
+}
+
+CameraView camera_lps(const CompiledScene& scene) {
+  CameraView camera = scene.view().camera;
+  const Double3& o = scene.origin_mm();
+  const Vec3f origin(Vec3d(o[0], o[1], o[2]));
+  camera.eye_mm += origin;
+  camera.target_mm += origin;
+  return camera;
+}
+
+LiveLimit greatest(const LiveFrame& f) {
+  const double most = std::max({f.compile_s, f.trace_s, f.denoise_s, f.develop_s});
+  if (f.done) return LiveLimit::kNothing;
+  if (f.trace_s == most) return LiveLimit::kTracing;
+  if (f.denoise_s == most) return LiveLimit::kDenoising;
+  return f.compile_s == most ? LiveLimit::kCompiling : LiveLimit::kDeveloping;
+}
+
+}  // namespace
+
+void LiveSession::Loop::run() {
+  for (;;) {
+    switch (wait()) {
+      case Step::kEnd:
+        give_up_asides();
+        return;
+      case Step::kMove:
+        attempt([&] { move(); });
+        break;
+      case Step::kRefine:
+        attempt([&] { refine(); });
+        break;
+      case Step::kAside:
+        draw(next_aside());
+        break;
+    }
+  }
+}
+
+LiveSession::Loop::Step LiveSession::Loop::wait() {
+  std::unique_lock lock(live_.mutex_);
+  for (;;) {
+    const Wishes& wishes = live_.wishes_;
+    if (wishes.ending) return Step::kEnd;
+    take_wishes();
+    const bool draws = wishes.watched && scene_ && !failed_;
+    if (draws && !at_rest() && !still_) return Step::kMove;
+    const bool shown = still_ && shown_ != Shown::kNot;
+    if (draws && !shown) return Step::kRefine;
+    if (!wishes.asides.empty() && (shown || !scene_ || failed_)) return Step::kAside;
+    if (draws && (!done_ || (shown_ == Shown::kQuickly && at_rest()))) return Step::kRefine;
+    if (draws && shown_ == Shown::kQuickly)
+      live_.wake_.wait_until(lock, edited_ + rest());
+    else
+      live_.wake_.wait(lock);
+  }
+}
+
+// mutex_ is held.
+void LiveSession::Loop::take_wishes() {
+  Wishes& wishes = live_.wishes_;
+  live_.cancel_ = false;
+  if (wishes.scene) {
+    revision_ = wishes.revision;
+    take_scene(std::move(*wishes.scene));
+    wishes.scene.reset();
+  }
+  if (std::exchange(wishes.split_changed, false)) {
+    split_ = wishes.split;
+    edited_ = Clock::now();
+    shown_ = Shown::kNot;
+  }
+}
+
+void LiveSession::Loop::take_scene(SceneDescription scene) {
+  scene.animation.reset();
+  framed_ = edited_ = Clock::now();
+  shown_ = Shown::kNot;
+  done_ = false;
+  const bool same_film = scene_ && !failed_ && scene_of_film(*scene_) == scene_of_film(scene);
+  if (!scene_ || !same_matter(*scene_, scene)) forgets_ = true;
+  if (!scene_ || scene_->render.denoise != scene.render.denoise) denoised_.reset();
+  scene_ = std::move(scene);
+  failed_ = still_compiled_ = false;
+  if (same_film && still_) {
+    // Its samples will do, if they have what a new denoiser needs.
+    if (!(still_->film.layers() == layers())) prepare(still_, scene_->image.width, scene_->image.height, layers());
+    return;
+  }
+  still_.reset();
+}
+
+LiveSession::Loop::Clock::duration LiveSession::Loop::rest() const {
+  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(live_.options_.rest_s));
+}
+
+bool LiveSession::Loop::at_rest() const { return Clock::now() - edited_ >= rest(); }
+
+/// Tells of what goes wrong; the scene is then left alone.
+template <class Work>
+void LiveSession::Loop::attempt(Work&& work) {
+  try {
+    work();
+  } catch (const std::exception& error) {
+    failed_ = true;
+    still_.reset();
+    if (live_.listener_.trouble) live_.listener_.trouble(revision_, error.what());
+  }
+}
+
+FilmLayers LiveSession::Loop::layers() const {
+  FilmLayers out = denoiser_layers(scene_->render.denoise);
+  out.depth = true;
+  return out;
+}
+
+RenderStatus LiveSession::Loop::trace(RenderState& state, const StopRule& stop,
+                                      const std::atomic<bool>* cancel, bool tells) const {
+  RenderLoopOptions loop;
+  loop.stop = stop;
+  if (state.film.layers().classes) loop.first_run = std::clamp(stop.spp.value_or(1), 1, kClassifiedTogether);
+  loop.threads = live_.options_.threads;
+  loop.cancel = cancel;
+  if (tells && live_.listener_.progress)
+    loop.progress = [this](const RenderProgress& p) { live_.listener_.progress(overall(p)); };
+  SceneView view = live_.session_.compiled().view();
+  view.keeps_parts = state.film.layers().classes;
+  const auto trace_tile = [&](const TileRect& tile, int begin, int end, Film& film, TraceCounters& counters) {
+    render_tile(view, tile, begin, end, film, counters);
+  };
+  return run_render_loop(state, trace_tile, loop).status;
+}
+
+/// What remains until the scene's own rules, where a pass knows of its own end.
+RenderProgress LiveSession::Loop::overall(const RenderProgress& pass) const {
+  RenderProgress out = pass;
+  out.remaining_s.reset();
+  const auto at_most = [&](double s) { out.remaining_s = std::max(0.0, std::min(s, out.remaining_s.value_or(s))); };
+  const ImageDescription& image = scene_->image;
+  const double spp_per_s = pass.samples_per_s / image.width / image.height;
+  if (image.seconds) at_most(*image.seconds - pass.elapsed_s);
+  if (spp_per_s > 0) {
+    if (image.spp) at_most((*image.spp - pass.spp) / spp_per_s);
+    if (image.noise && pass.noise)
+      at_most(pass.spp * (std::pow(*pass.noise / *image.noise, 2) - 1) / spp_per_s);
+  }
+  return out;
+}
+
+void LiveSession::Loop::move() {
+  SceneDescription scene = *scene_;
+  const FrameSize size = sizes_.next(scene.image.width, scene.image.height);
+  scene.image.width = size.width;
+  scene.image.height = size.height;
+  scene.render.frame += ++drawn_;
+  if (scene.visibility) scene.visibility->ray_passes = std::min(scene.visibility->ray_passes, kMovingRayPasses);
+  spent_ = {};
+  still_compiled_ = false;
+  spent_.compile_s = timed([&] { live_.session_.compile(std::move(scene)); });
+  prepare(moving_, size.width, size.height, layers());
+  StopRule stop;
+  stop.spp = size.spp;
+  spent_.trace_s = timed([&] { trace(*moving_, stop, nullptr, false); });
+  const double rest_s = timed([&] { publish(*moving_, Shown::kQuickly); });
+  sizes_.learn(size, spent_.compile_s, spent_.trace_s, rest_s);
+}
+
+void LiveSession::Loop::compile_still() {
+  if (still_compiled_) return;
+  spent_.compile_s += timed([&] { live_.session_.compile(*scene_); });
+  still_compiled_ = true;
+}
+
+StopRule LiveSession::Loop::still_stop() const {
+  const ImageDescription& image = scene_->image;
+  return {image.spp, image.seconds, image.noise};
+}
+
+bool LiveSession::Loop::still_done() const {
+  if (!still_) return false;
+  const StopRule stop = still_stop();
+  const int spp = static_cast<int>(still_->film.sample_count(0, 0));
+  return (stop.spp && spp >= *stop.spp) || (stop.seconds && still_->elapsed_s >= *stop.seconds) ||
+         (stop.noise && spp >= kNoiseFrom && still_->film.noise() <= *stop.noise);
+}
+
+/// The count of samples that the next pass ends at; as render_picture's passes do, so that its rules are
+/// looked at after the same ones.
+int LiveSession::Loop::next_still_spp() const {
+  const auto at = static_cast<int>(still_->film.sample_count(0, 0));
+  if (at >= 32) return (at / 32 + 1) * 32;
+  int end = 1;
+  while (end <= at) end *= 2;
+  if (at > 0) return end;
+  const double pass_s = sizes_.cost().per_sample_s * static_cast<double>(still_->film.pixel_count());
+  while (pass_s > 0 && end < 32 && 2 * end * pass_s < kFirstStill_s) end *= 2;
+  return end;
+}
+
+void LiveSession::Loop::refine() {
+  compile_still();
+  if (!still_) prepare(still_, scene_->image.width, scene_->image.height, layers());
+  done_ = still_done();
+  const bool due = shown_ == Shown::kNot || (shown_ == Shown::kQuickly && at_rest());
+  if (due && still_->film.sample_count(0, 0) > 0) {  // samples that an edit has not touched
+    publish(*still_, at_rest() ? Shown::kWell : Shown::kQuickly);
+    return;
+  }
+  if (done_) return;
+  StopRule stop = still_stop();
+  stop.spp = std::min(next_still_spp(), stop.spp.value_or(1 << 30));
+  denoised_.reset();
+  RenderStatus status{};
+  spent_.trace_s += timed([&] { status = trace(*still_, stop, &live_.cancel_, true); });
+  if (status == RenderStatus::kCancelled) return;
+  done_ = still_done();
+  const double since_s = seconds(Clock::now() - framed_);
+  if (shown_ == Shown::kNot || done_ || since_s > std::max(kShowEvery_s, kShowShare * show_s_))
+    publish(*still_, Shown::kWell);
+}
+
+/// The picture of `state`, denoised; that of last time where nothing but its development has changed.
+std::shared_ptr<const Image> LiveSession::Loop::picture(const RenderState& state, Shown how) {
+  const std::string& method = scene_->render.denoise;
+  if (method == "none") {
+    denoiser_.reset();
+  } else if (!denoiser_ || denoiser_name_ != method) {
+    denoiser_.emplace(method);
+  }
+  denoiser_name_ = method;
+  const bool still = still_ && &state == &*still_;
+  if (still && how == Shown::kQuickly && denoised_) return denoised_;
+  // The samples of a still picture are those of its last showing and more, not another frame.
+  if (denoiser_ && (forgets_ || still)) denoiser_->forget();
+  forgets_ = still;
+  auto out = std::make_shared<const Image>(
+      finish_picture(state, live_.session_.compiled(), {}, {}, denoiser_ ? &*denoiser_ : nullptr));
+  denoised_ = still ? out : nullptr;
+  return out;
+}
+
+Image8 LiveSession::Loop::develop(const RenderState& state, const Image& linear) const {
+  const bool transparent = live_.session_.compiled().view().background == BackgroundKind::kTransparent;
+  const ToneMap tone{scene_->image.exposure_ev, scene_->image.tone_curve, transparent, false};
+  if (!split_ || !denoiser_) return tone_map(linear, tone);
+  Image shown = linear;
+  copy_columns(image_from_film(state.film, {}, transparent),
+               std::clamp(static_cast<int>(*split_ * shown.width), 0, shown.width), shown);
+  return tone_map(shown, tone);
+}
+
+void LiveSession::Loop::publish(const RenderState& state, Shown how) {
+  const Clock::time_point begin = Clock::now();
+  auto frame = std::make_shared<LiveFrame>(spent_);
+  frame->denoise_s = timed([&] { frame->linear = picture(state, how); });
+  frame->develop_s = timed([&] { frame->picture = develop(state, *frame->linear); });
+  frame->number = ++frames_;
+  frame->revision = revision_;
+  frame->moving = how == Shown::kQuickly;
+  frame->done = !frame->moving && done_;
+  frame->depth_mm = depths(state.film);
+  frame->camera = camera_lps(live_.session_.compiled());
+  frame->width = scene_->image.width;
+  frame->height = scene_->image.height;
+  frame->spp = static_cast<double>(state.film.total_samples()) / static_cast<double>(state.film.pixel_count());
+  if (!frame->moving && frame->spp >= kNoiseFrom) frame->noise = state.film.noise();
+  frame->limit = greatest(*frame);
+  frame->frame_s = seconds(Clock::now() - framed_);
+  shown_ = how;
+  if (live_.listener_.frame) live_.listener_.frame(std::move(frame));
+  framed_ = Clock::now();
+  show_s_ = seconds(framed_ - begin);
+  spent_ = {};
+}
+
+LiveSession::Aside LiveSession::Loop::next_aside() {
+  const std::lock_guard lock(live_.mutex_);
+  std::vector<Aside>& asides = live_.wishes_.asides;
+  Aside aside = std::move(asides.front());
+  asides.erase(asides.begin());
+  return aside;
+}
+
+void LiveSession::Loop::draw(Aside aside) {
+  Image8 picture;
+  try {
+    still_compiled_ = false;
+    live_.session_.compile(aside.scene);
+    const ImageDescription& image = aside.scene.image;
+    RenderState state{Film(image.width, image.height, {}), {}, 0};
+    StopRule stop;
+    stop.spp = aside.spp;
+    if (trace(state, stop, &live_.cancel_, false) == RenderStatus::kCancelled) {  // and try again later
+      const std::lock_guard lock(live_.mutex_);
+      live_.wishes_.asides.insert(live_.wishes_.asides.begin(), std::move(aside));
+      return;
+    }
+    const bool transparent = live_.session_.compiled().view().background == BackgroundKind::kTransparent;
+    picture = tone_map(image_from_film(state.film, {}, transparent),
+                       {image.exposure_ev, image.tone_curve, transparent, false});
+  } catch (const std::exception&) {
+    picture = {};
+  }
+  aside.done(std::move(picture));
+}
+
+void LiveSession::Loop::give_up_asides() {
+  std::vector<Aside> left;
+  {
+    const std::lock_guard lock(live_.mutex_);
+    left.swap(live_.wishes_.asides);
+  }
+  for (const Aside& aside : left) aside.done({});
+}
+
+}  // namespace voxlume

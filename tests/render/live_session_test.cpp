@@ -1,0 +1,314 @@
+#include "render/live_session.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <future>
+
+#include "render/picture.h"
+#include "scene/resolve.h"
+#include "support/volumes.h"
+#include "tonemap/tone_map.h"
+#include "voxlume/error.h"
+
+namespace voxlume {
+namespace {
+
+using FramePtr = std::shared_ptr<const LiveFrame>;
+
+Volume ball() {
+  return test::make_volume<std::int16_t>({24, 24, 24}, [](auto i, auto j, auto k) {
+    const double x = i - 11.5, y = j - 11.5, z = k - 11.5;
+    return x * x + y * y + z * z < 100 ? 600 : -1000;
+  });
+}
+
+SceneDescription small_scene() {
+  SceneDescription scene;
+  scene.transfer.preset = "ct-bone";
+  scene.image.width = 48;
+  scene.image.height = 40;
+  scene.image.spp = 64;
+  return scene;
+}
+
+/// Keeps what a session tells.
+class Heard {
+ public:
+  LiveListener listener() {
+    return {[this](FramePtr frame) {
+              std::unique_lock lock(mutex_);
+              frames_.push_back(std::move(frame));
+              changed_.notify_all();
+              changed_.wait(lock, [this] { return !held_; });
+            },
+            [this](std::uint64_t revision, const std::string& message) {
+              const std::lock_guard lock(mutex_);
+              troubles_.emplace_back(revision, message);
+              changed_.notify_all();
+            },
+            {}};
+  }
+
+  /// The first frame, of those to come and those that came, for which `pred` holds.
+  template <class Pred>
+  FramePtr wait_for(Pred&& pred) {
+    std::unique_lock lock(mutex_);
+    FramePtr found;
+    changed_.wait(lock, [&] {
+      for (const FramePtr& frame : frames_)
+        if (pred(*frame)) found = frame;
+      return found != nullptr;
+    });
+    return found;
+  }
+  FramePtr wait_done(std::uint64_t revision) {
+    return wait_for([&](const LiveFrame& f) { return f.done && f.revision == revision; });
+  }
+  std::pair<std::uint64_t, std::string> wait_trouble() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return !troubles_.empty(); });
+    return troubles_.back();
+  }
+  /// While held the session's thread stays in the listener once it comes there.
+  void hold(bool held) {
+    const std::lock_guard lock(mutex_);
+    held_ = held;
+    changed_.notify_all();
+  }
+  std::vector<FramePtr> frames() {
+    const std::lock_guard lock(mutex_);
+    return frames_;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<FramePtr> frames_;
+  std::vector<std::pair<std::uint64_t, std::string>> troubles_;
+  bool held_ = false;
+};
+
+LiveOptions quick() {
+  LiveOptions options;
+  options.rest_s = 0.02;
+  return options;
+}
+
+/// What `voxlume render` makes of the scene.
+Image rendered(const LiveSession& live, const SceneDescription& scene) {
+  Session session(scene, live.session().volume());
+  session.compile(session.description());
+  const PictureSamples samples = render_picture(session.compiled(), "", {});
+  return finish_picture(samples.state, session.compiled(), {});
+}
+
+TEST(LiveSession, EndsWithThePictureOfTheRenderCommand) {
+  Heard heard;
+  LiveSession live(small_scene(), ball(), heard.listener(), quick());
+  const SceneDescription scene = live.session().description();
+  const FramePtr frame = heard.wait_done(live.show(scene));
+  EXPECT_EQ(frame->spp, 64);
+  EXPECT_EQ(frame->limit, LiveLimit::kNothing);
+  EXPECT_FALSE(frame->moving);
+  ASSERT_TRUE(frame->noise);
+  EXPECT_GT(*frame->noise, 0);
+  EXPECT_EQ(frame->linear->rgba, rendered(live, scene).rgba);
+  EXPECT_EQ(frame->picture.width, 48);
+  EXPECT_EQ(frame->linear->metadata.count("voxlume:scene"), 1u);
+}
+
+TEST(LiveSession, StopsAtTheNoiseThatTheRenderCommandStopsAt) {
+  Heard heard;
+  SceneDescription scene = small_scene();
+  scene.image.spp.reset();
+  scene.image.noise = 0.05;
+  LiveSession live(scene, ball(), heard.listener(), quick());
+  const FramePtr frame = heard.wait_done(live.show(live.session().description()));
+  EXPECT_GT(frame->spp, 8);
+  EXPECT_LE(*frame->noise, 0.05);
+  EXPECT_EQ(frame->linear->rgba, rendered(live, live.session().description()).rgba);
+}
+
+TEST(LiveSession, OfManyEditsFromManyThreadsTheLastWins) {
+  Heard heard;
+  LiveSession live(small_scene(), ball(), heard.listener(), quick());
+  const SceneDescription base = live.session().description();
+  std::vector<std::future<void>> threads;
+  std::mutex mutex;
+  std::uint64_t last = 0;
+  double azimuth_deg = 0;
+  for (int t = 0; t < 4; ++t)
+    threads.push_back(std::async(std::launch::async, [&, t] {
+      for (int i = 0; i < 50; ++i) {
+        SceneDescription scene = base;
+        scene.camera.azimuth_deg = 50 * t + i;
+        const std::lock_guard lock(mutex);
+        last = live.show(scene);
+        azimuth_deg = scene.camera.azimuth_deg;
+      }
+    }));
+  for (auto& thread : threads) thread.get();
+  EXPECT_EQ(last, 200u);
+  SceneDescription scene = base;
+  scene.camera.azimuth_deg = azimuth_deg;
+  EXPECT_EQ(heard.wait_done(last)->linear->rgba, rendered(live, scene).rgba);
+  std::uint64_t revision = 0, number = 0;
+  for (const FramePtr& frame : heard.frames()) {
+    EXPECT_GE(frame->revision, revision);
+    EXPECT_EQ(frame->number, number + 1);
+    revision = frame->revision;
+    number = frame->number;
+  }
+}
+
+TEST(LiveSession, ShowReturnsWhileAFrameIsOnItsWay) {
+  Heard heard;
+  heard.hold(true);
+  LiveSession live(small_scene(), ball(), heard.listener(), quick());
+  SceneDescription scene = live.session().description();
+  live.show(scene);
+  heard.wait_for([](const LiveFrame&) { return true; });  // and it stays in the listener
+  std::uint64_t last = 0;
+  for (int i = 0; i < 1000; ++i) {
+    scene.camera.azimuth_deg = i;
+    last = live.show(scene);
+  }
+  EXPECT_EQ(last, 1001u);
+  EXPECT_EQ(heard.frames().size(), 1u);
+  heard.hold(false);
+  const FramePtr frame = heard.wait_done(last);
+  // Of the thousand none but the last was drawn.
+  for (const FramePtr& f : heard.frames()) EXPECT_TRUE(f->revision == 1 || f->revision == last);
+  EXPECT_EQ(frame->revision, last);
+}
+
+TEST(LiveSession, DevelopmentKeepsTheSamples) {
+  Heard heard;
+  LiveSession live(small_scene(), ball(), heard.listener(), quick());
+  SceneDescription scene = live.session().description();
+  const FramePtr before = heard.wait_done(live.show(scene));
+  scene.image.exposure_ev = 2;
+  const std::uint64_t revision = live.show(scene);
+  const FramePtr after = heard.wait_done(revision);
+  for (const FramePtr& frame : heard.frames())
+    if (frame->revision == revision) { EXPECT_EQ(frame->spp, 64); }
+  EXPECT_EQ(after->linear->rgba, before->linear->rgba);
+  EXPECT_NE(after->picture.values, before->picture.values);
+  // More samples of the same picture go on from those there are.
+  scene.image.spp = 96;
+  const std::uint64_t more = live.show(scene);
+  const FramePtr longer = heard.wait_done(more);
+  EXPECT_EQ(longer->spp, 96);
+  for (const FramePtr& frame : heard.frames())
+    if (frame->revision == more) { EXPECT_GE(frame->spp, 64); }
+  EXPECT_EQ(longer->linear->rgba, rendered(live, scene).rgba);
+}
+
+TEST(LiveSession, SplitsThePictureWhereTold) {
+  Heard heard;
+  SceneDescription scene = small_scene();
+  scene.render.denoise = "decoupled";
+  scene.image.spp = 4;
+  LiveSession live(scene, ball(), heard.listener(), quick());
+  const std::uint64_t revision = live.show(live.session().description());
+  const FramePtr whole = heard.wait_done(revision);
+  live.set_split(0.5);
+  const auto differs_at = [&](const LiveFrame& f, int x0, int x1) {
+    for (int y = 0; y < 40; ++y)
+      for (int i = 3 * (48 * y + x0); i < 3 * (48 * y + x1); ++i)
+        if (f.picture.values[static_cast<std::size_t>(i)] != whole->picture.values[static_cast<std::size_t>(i)])
+          return true;
+    return false;
+  };
+  const FramePtr split = heard.wait_for([&](const LiveFrame& f) { return f.done && differs_at(f, 0, 24); });
+  EXPECT_FALSE(differs_at(*split, 24, 48));
+  EXPECT_EQ(split->revision, revision);
+  EXPECT_EQ(split->spp, 4);
+}
+
+TEST(LiveSession, ATroubledSceneIsToldOfAndTheNextIsDrawn) {
+  Heard heard;
+  LiveSession live(small_scene(), ball(), heard.listener(), quick());
+  SceneDescription scene = live.session().description();
+  const std::uint64_t good = live.show(scene);
+  heard.wait_done(good);
+  SceneDescription bad = scene;
+  bad.environment->image = "/nowhere/sky.exr";
+  const std::uint64_t troubled = live.show(bad);
+  const auto [revision, message] = heard.wait_trouble();
+  EXPECT_EQ(revision, troubled);
+  EXPECT_THAT(message, testing::HasSubstr("/nowhere/sky.exr"));
+  scene.camera.azimuth_deg = 10;
+  const FramePtr frame = heard.wait_done(live.show(scene));
+  EXPECT_EQ(frame->linear->rgba, rendered(live, scene).rgba);
+  for (const FramePtr& f : heard.frames()) EXPECT_NE(f->revision, troubled);
+}
+
+TEST(LiveSession, DrawsNothingWhileNobodyWatches) {
+  Heard heard;
+  LiveSession live(small_scene(), ball(), heard.listener(), quick());
+  SceneDescription scene = live.session().description();
+  live.set_watched(false);
+  live.show(scene);
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_TRUE(heard.frames().empty());
+  live.set_watched(true);
+  EXPECT_EQ(heard.wait_done(1)->spp, 64);
+}
+
+TEST(LiveSession, DrawsOtherScenesAside) {
+  Heard heard;
+  LiveSession live(small_scene(), ball(), heard.listener(), quick());
+  SceneDescription scene = live.session().description();
+  SceneDescription aside = scene;
+  aside.transfer.preset = "ct-skin";
+  aside.transfer.points.clear();
+  aside.image.width = aside.image.height = 16;
+  aside = live.resolved(aside);
+  std::promise<Image8> good, bad;
+  live.draw_aside(aside, 8, [&](Image8 picture) { good.set_value(std::move(picture)); });
+  const std::uint64_t revision = live.show(scene);
+  const Image8 picture = good.get_future().get();
+  EXPECT_EQ(picture.width, 16);
+  aside.image.spp = 8;
+  const Image alone = rendered(live, aside);
+  EXPECT_EQ(picture.values, tone_map(alone, {aside.image.exposure_ev, aside.image.tone_curve}).values);
+  aside.environment->image = "/nowhere/sky.exr";
+  live.draw_aside(aside, 8, [&](Image8 p) { bad.set_value(std::move(p)); });
+  EXPECT_EQ(bad.get_future().get().width, 0);
+  // What was drawn aside leaves no trace in the picture.
+  EXPECT_EQ(heard.wait_done(revision)->linear->rgba, rendered(live, scene).rgba);
+}
+
+TEST(LiveSession, EndsWhileItRenders) {
+  Heard heard;
+  std::promise<Image8> aside;
+  {
+    SceneDescription scene = small_scene();
+    scene.image.width = scene.image.height = 512;
+    scene.image.spp = 1 << 20;
+    LiveSession live(scene, ball(), heard.listener(), quick());
+    live.show(live.session().description());
+    heard.wait_for([](const LiveFrame& f) { return !f.moving; });
+    live.set_watched(false);
+    live.draw_aside(live.session().description(), 1 << 20, [&](Image8 p) { aside.set_value(std::move(p)); });
+  }
+  EXPECT_EQ(aside.get_future().wait_for(std::chrono::seconds(0)), std::future_status::ready);
+}
+
+TEST(LiveSession, KnowsWhereThePictureIs) {
+  Heard heard;
+  LiveSession live(small_scene(), ball(), heard.listener(), quick());
+  const FramePtr frame = heard.wait_done(live.show(live.session().description()));
+  // The middle pixel sees the front of the ball, whose centre is the target and whose radius is 10 mm.
+  const std::size_t middle = 20u * 48 + 24;
+  const float depth_mm = frame->depth_mm[middle];
+  const float target_mm = length(frame->camera.target_mm - frame->camera.eye_mm);
+  EXPECT_NEAR(depth_mm, target_mm - 10, 1.0f);
+  EXPECT_EQ(frame->depth_mm[0], 0);
+  EXPECT_NEAR(frame->camera.target_mm.x, 11.5f, 1e-3f);
+}
+
+}  // namespace
+}  // namespace voxlume
