@@ -1,6 +1,12 @@
 import type { ComponentType } from "preact";
 import "../styles/panels.css";
 import type { IconName } from "../ui/icons";
+import { CameraPanel } from "./camera";
+import { ClipPanel } from "./clip";
+import { LabelsPanel } from "./labels/panel";
+import { LightsPanel } from "./lights/panel";
+import { MaterialPanel } from "./material";
+import { RenderPanel } from "./render";
 import { TransferPanel } from "./transfer/panel";
 
 /** The panels, in the order of the rail at the right edge. One is open beside the picture at a time, and one below it;
@@ -17,4 +23,10 @@ export interface Panel {
 
 export const panels: readonly Panel[] = [
   { id: "transfer", title: "Transfer function", icon: "curve", component: TransferPanel, place: "side" },
+  { id: "labels", title: "Labels", icon: "labels", component: LabelsPanel, place: "side" },
+  { id: "material", title: "Material", icon: "volume", component: MaterialPanel, place: "side" },
+  { id: "lights", title: "Lights and background", icon: "light", component: LightsPanel, place: "side" },
+  { id: "clip", title: "Clip box", icon: "box", component: ClipPanel, place: "side" },
+  { id: "camera", title: "Camera", icon: "camera", component: CameraPanel, place: "side" },
+  { id: "render", title: "Picture and rendering", icon: "settings", component: RenderPanel, place: "side" },
 ];

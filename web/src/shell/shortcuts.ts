@@ -2,7 +2,7 @@ import { newGesture, redo, scene, undo } from "../state/scene";
 import { axisViews, fitView, lookFrom, orbitBy, panByPixels, rollBy, toggleProjection, zoomBy } from "../view/camera-control";
 import { cancelMeasuring, measuring, removeLast } from "../view/measure";
 import { toggleClip, toggleLights, toggleMeasuring, toggleSplit } from "../view/toolbar";
-import { helpShown, toggleFullscreen } from "./page-state";
+import { helpShown, toggleFullscreen, toggleSlices } from "./page-state";
 import { copyLink, savePng } from "./keep";
 import { openDialog } from "./opening";
 
@@ -74,6 +74,7 @@ export const shortcuts: readonly Shortcut[] = [
   { keys: ["L"], what: "Light handles", group: "Tools", matches: key("l"), run: toggleLights },
   { keys: ["C"], what: "Clip handles", group: "Tools", matches: key("c"), run: toggleClip },
   { keys: ["D"], what: "Compare with the picture before the denoiser", group: "Tools", matches: key("d"), run: toggleSplit },
+  { keys: ["S"], what: "Slices beside the picture", group: "Tools", matches: key("s"), run: toggleSlices },
   { keys: ["Ctrl", "Z"], what: "Undo", group: "Page", matches: control("z", false), run: undo },
   {
     keys: ["Ctrl", "Shift", "Z"], what: "Redo", group: "Page",

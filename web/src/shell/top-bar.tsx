@@ -1,4 +1,4 @@
-import { resolution, theme, type Theme } from "../state/preferences";
+import { layout, resolution, theme, type Theme } from "../state/preferences";
 import { canRedo, canUndo, redo, scene, undo } from "../state/scene";
 import { volume, type VolumeFacts } from "../state/volume";
 import { Button, IconButton } from "../ui/controls";
@@ -7,7 +7,7 @@ import { Menu } from "../ui/menu";
 import { pickFiles } from "./files";
 import { copyLink, saveExr, savePng, saveScene } from "./keep";
 import { openDialog } from "./opening";
-import { fullscreen, helpShown, toggleFullscreen } from "./page-state";
+import { fullscreen, helpShown, toggleFullscreen, toggleSlices } from "./page-state";
 
 function facts({ size, spacing_mm, type, modality, range }: VolumeFacts): string {
   return [
@@ -53,6 +53,8 @@ export function TopBar() {
       <Button icon="folder" title="Open a volume or scene (Ctrl+O)" onClick={() => (openDialog.value = true)}>Open</Button>
       <OpenVolume />
       <span class="spring" />
+      <IconButton icon="slices" label="Slices beside the picture" keys="S" pressed={layout.value === "slices"} disabled={none} onClick={toggleSlices} />
+      <span class="divider" />
       <IconButton icon="undo" label="Undo" keys="Ctrl+Z" disabled={none || !canUndo.value} onClick={undo} />
       <IconButton icon="redo" label="Redo" keys="Ctrl+Shift+Z" disabled={none || !canRedo.value} onClick={redo} />
       <span class="divider" />

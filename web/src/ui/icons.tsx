@@ -8,6 +8,7 @@ const paths = {
   chevron: "M6 4l4 4-4 4",
   close: "M4 4l8 8M12 4l-8 8",
   clip: "M4.5 1.5v10h10M1.5 4.5h10v10",
+  contrast: "M8 14a6 6 0 1 0 0-12 6 6 0 0 0 0 12zM8 2v12M9.5 4.500h2M9.5 7h4M9.5 9.500h4M9.5 12h2",
   copy: "M5.5 5.5h8v8h-8zM10.5 5.5v-3h-8v8h3",
   curve: "M2 13h12M2 13V3M3.5 11.5c3 0 3-7 5.5-7S11 8 13.5 8",
   delete: "M3 4.5h10M6.5 4.5V3h3v1.5M4.5 4.5l.6 8.5h5.8l.6-8.5M6.7 7v3.5M9.3 7v3.5",
