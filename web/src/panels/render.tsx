@@ -1,6 +1,5 @@
 import { setSplit, hello, split } from "../state/session";
 import { edit, scene } from "../state/scene";
-import { resolution } from "../state/preferences";
 import { Field, NumberInput, Section, Segmented, Select, Slider, Toggle } from "../ui/controls";
 import { Disclosure } from "../ui/disclosure";
 
@@ -30,13 +29,6 @@ export function RenderPanel() {
             { value: "srgb", label: "Linear", hint: "sRGB: bright light is cut off" },
           ]}
           onChange={(curve) => edit([["/image/tone_curve", curve]])} />
-        <Segmented label="Resolution" hint="Of the picture in the view" value={String(resolution.value)}
-          options={[
-            { value: "0.5", label: "Half" },
-            { value: "1", label: "Full" },
-            { value: "2", label: "Double" },
-          ]}
-          onChange={(value) => (resolution.value = Number(value))} />
       </Section>
       <Section title="Denoiser">
         <Select label="Method" value={render.denoise} hint={denoisers.find((d) => d.name === render.denoise)?.summary}

@@ -74,7 +74,7 @@ export function SliceBar() {
   };
   return (
     <div class="slice-bar" role="toolbar" aria-label="Slices">
-      <IconButton icon="measure" label="Click a point in the picture to go there" pressed={picking.value} onClick={() => void locate()} />
+      <IconButton icon="fit" label="Click a point in the picture to go there" pressed={picking.value} onClick={() => void locate()} />
       <IconButton
         icon="contrast"
         label="Drag changes brightness and contrast (else the right button does)"
