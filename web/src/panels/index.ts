@@ -1,6 +1,7 @@
 import type { ComponentType } from "preact";
 import "../styles/panels.css";
 import type { IconName } from "../ui/icons";
+import { AnimationPanel } from "./animation/panel";
 import { CameraPanel } from "./camera";
 import { ClipPanel } from "./clip";
 import { LabelsPanel } from "./labels/panel";
@@ -31,4 +32,5 @@ export const panels: readonly Panel[] = [
   { id: "visibility", title: "Keep in view", icon: "eye", component: VisibilityPanel, place: "side" },
   { id: "camera", title: "Camera", icon: "camera", component: CameraPanel, place: "side" },
   { id: "render", title: "Picture and rendering", icon: "settings", component: RenderPanel, place: "side" },
+  { id: "animation", title: "Animation", icon: "film", component: AnimationPanel, place: "bottom" },
 ];
