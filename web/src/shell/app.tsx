@@ -1,4 +1,5 @@
 import { useEffect } from "preact/hooks";
+import { volume } from "../state/volume";
 import { Toasts } from "../ui/toast";
 import { StatusBar } from "../view/status-bar";
 import { View } from "../view/view";
@@ -13,6 +14,10 @@ import { TopBar } from "./top-bar";
 /** The page: a bar on top, the picture, the open panels and the rail that opens them. */
 export function App() {
   useEffect(listenToKeys, []);
+  const open = volume.value?.name;
+  useEffect(() => {
+    document.title = open ? `${open} - voxlume` : "voxlume";
+  }, [open]);
   return (
     <div class="page">
       <TopBar />
