@@ -18,6 +18,10 @@ import { TopBar } from "./top-bar";
 export function App() {
   useEffect(listenToKeys, []);
   const slicesShown = layout.value === "slices" && scene.value !== null && volume.value !== null;
+  const open = volume.value?.name;
+  useEffect(() => {
+    document.title = open ? `${open} - voxlume` : "voxlume";
+  }, [open]);
   return (
     <div class="page">
       <TopBar />

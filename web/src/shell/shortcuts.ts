@@ -14,25 +14,29 @@ export interface Shortcut {
   what: string;
   group: "Camera" | "Tools" | "Page";
   matches(event: KeyboardEvent): boolean;
-  /** May go on while the key is held: `gesture` is the same then. */
+  /** `gesture` is the same while the key is held or pressed again soon. */
   run(event: KeyboardEvent, gesture: string): void;
   /** Works only while the picture (or nothing) has the focus. */
   inView?: boolean;
 }
 
-const key = (name: string) => (event: KeyboardEvent) =>
-  event.key.toLowerCase() === name && !event.ctrlKey && !event.metaKey && !event.altKey;
+/** AltGr is how some keyboards write brackets. */
+const plain = (event: KeyboardEvent) =>
+  event.getModifierState("AltGraph") || (!event.ctrlKey && !event.metaKey && !event.altKey);
+const key = (name: string) => (event: KeyboardEvent) => event.key.toLowerCase() === name && plain(event);
 const control = (name: string, shift: boolean) => (event: KeyboardEvent) =>
   event.key.toLowerCase() === name && (event.ctrlKey || event.metaKey) && event.shiftKey === shift;
 const arrows: Record<string, readonly [number, number]> = {
   ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1],
 };
-const isArrow = (event: KeyboardEvent) => event.key in arrows && !event.ctrlKey && !event.metaKey && !event.altKey;
+const isArrow = (event: KeyboardEvent) => event.key in arrows && plain(event);
 
 const kOrbit_deg = 5;
 const kPan_px = 24;
 const kZoom = 1.1;
 const kRoll_deg = 5;
+/** Presses of one key that follow this soon are one step of undo. */
+const kTogether_ms = 800;
 
 export const shortcuts: readonly Shortcut[] = [
   {
@@ -105,7 +109,7 @@ function takesText(target: EventTarget | null): boolean {
 
 /** Listens to the page's keys; returns what ends that. */
 export function listenToKeys(): () => void {
-  let gesture = "";
+  let last = { gesture: "", shortcut: shortcuts[0], time_ms: -Infinity };
   const down = (event: KeyboardEvent) => {
     if (event.defaultPrevented || takesText(event.target) || document.querySelector("dialog[open]")) return;
     const focus = document.activeElement;
@@ -113,8 +117,9 @@ export function listenToKeys(): () => void {
     const shortcut = shortcuts.find((one) => (inView || !one.inView) && one.matches(event));
     if (!shortcut || (!scene.peek() && shortcut.group !== "Page")) return;
     event.preventDefault();
-    if (!event.repeat) gesture = newGesture("keys");
-    shortcut.run(event, gesture);
+    const goesOn = shortcut === last.shortcut && event.timeStamp - last.time_ms < kTogether_ms;
+    last = { gesture: goesOn ? last.gesture : newGesture("keys"), shortcut, time_ms: event.timeStamp };
+    shortcut.run(event, last.gesture);
   };
   addEventListener("keydown", down);
   return () => removeEventListener("keydown", down);

@@ -34,7 +34,7 @@ function OpenVolume() {
 }
 
 const resolutions = [
-  { share: 1, label: "Full resolution", hint: "A pixel of the picture for each of the view" },
+  { share: 1, label: "Full", hint: "One pixel for each of the view" },
   { share: 0.75, label: "Three quarters", hint: "About twice as fast" },
   { share: 0.5, label: "Half", hint: "Four times as fast" },
 ];
@@ -81,11 +81,11 @@ export function TopBar() {
         label="Resolution and theme"
         icon="settings"
         items={[
-          ...resolutions.map(({ share, label, hint }) => ({
-            label, hint, checked: resolution.value === share, run: () => void (resolution.value = share),
+          ...resolutions.map(({ share, label, hint }, i) => ({
+            group: i === 0 ? "Resolution" : undefined, label, hint, checked: resolution.value === share, run: () => void (resolution.value = share),
           })),
-          ...themes.map(({ value, label }) => ({
-            label: `Theme: ${label.toLowerCase()}`, checked: theme.value === value, run: () => void (theme.value = value),
+          ...themes.map(({ value, label }, i) => ({
+            group: i === 0 ? "Theme" : undefined, label, checked: theme.value === value, run: () => void (theme.value = value),
           })),
         ]}
       />

@@ -31,6 +31,7 @@ export function View() {
       click: (x, y) => {
         const at = inArea(x, y);
         if (measuring.peek()) void setEnd(at.x, at.y);
+        else pointAt(at);
       },
       doubleClick: async (x, y) => {
         const at = inArea(x, y);
