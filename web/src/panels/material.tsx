@@ -132,7 +132,7 @@ function MaterialCard({ of, material, index }: { of: Scene; material: NamedMater
   const given = numbers.filter(({ key }) => material[key] !== undefined);
   const open = numbers.filter(({ key }) => material[key] === undefined);
   return (
-    <div class="card">
+    <div class="panel-card">
       <header>
         <strong>{material.name}</strong>
         <small>{material.like ? `like ${material.like}` : ""}</small>

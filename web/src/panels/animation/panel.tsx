@@ -45,23 +45,26 @@ export function AnimationPanel() {
   const { animation } = of;
   const keyframes = keyframesOf(animation);
   const key = selected === null ? undefined : keyframes.find((one) => Math.abs(one.time - selected) < 1e-4);
-  const captureNow = () => {
-    const last = keyframes.at(-1)?.time;
-    // At a time that was chosen, else some time after the last.
-    const time = key?.time ?? (previewing.value || last === undefined ? playhead.value : last + kDefaultStep_s);
+  const captureAt = (time: number) => {
     const values = byShortestWay(animation, time, captureValues(of, chosenParts.value));
     if (values.length === 0) return;
     set(capture(animation, time, values));
     setSelected(time);
+  };
+  const add = () => {
+    const last = keyframes.at(-1)?.time;
+    // Where the preview stands, else some time after the last.
+    captureAt(previewing.value || last === undefined ? playhead.value : last + kDefaultStep_s);
   };
   return (
     <div class="animation">
       <div class="animation-bar" role="toolbar" aria-label="Animation">
         <Transport />
         <span class="bar-divider" />
-        <Button icon="key" primary onClick={captureNow} title="Keeps how the chosen parts are now as a keyframe">
-          {key ? "Update keyframe" : "Add keyframe"}
+        <Button icon="key" primary onClick={add} title="Keeps how the chosen parts are now">
+          Add keyframe
         </Button>
+        <IconButton icon="check" label="Replace what the chosen keyframe holds by how it is now" disabled={!key} onClick={() => key && captureAt(key.time)} />
         <span class="part-choice" role="group" aria-label="What a keyframe holds">
           {parts.map(({ part, title }) => (
             <Part key={part} part={part} title={title} disabled={part === "clip" && !of.clip} />
@@ -116,13 +119,13 @@ function Turntable({ animation }: { animation: Animation | undefined }) {
   const turntable = animation?.turntable;
   if (!turntable)
     return (
-      <Button icon="orbit" title="Once around in 6 s" onClick={() => set({ ...(animation ?? emptyAnimation), turntable: { seconds: 6, turns: 1 } })}>
+      <Button icon="turntable" title="Once around in 6 s" onClick={() => set({ ...(animation ?? emptyAnimation), turntable: { seconds: 6, turns: 1 } })}>
         Turntable
       </Button>
     );
   return (
     <span class="bar-group">
-      <Icon name="orbit" />
+      <Icon name="turntable" />
       <NumberInput label="Turns" digits={2} min={-50} max={50} value={turntable.turns} unit="×"
         onChange={(turns, gesture) => edit([["/animation/turntable/turns", turns]], gesture)} />
       <NumberInput label="Seconds of all turns" digits={2} min={0.05} unit="s" value={turntable.seconds}

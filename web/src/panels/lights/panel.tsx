@@ -103,7 +103,7 @@ function MotionFields({ of, light, index }: { of: Scene; light: Light; index: nu
     showToast({ text: `The motion is in the animation: ${period.value} s` });
   };
   return (
-    <div class="card motion">
+    <div class="panel-card motion">
       <Toggle label="Rotate" hint="The light goes around the point that the camera turns about" value={now === "orbit"} onChange={toggle("orbit")} />
       <Toggle label="Flash" hint="The intensity goes down and up again" value={now === "flash"} onChange={toggle("flash")} />
       <Slider label="Period" unit="s" min={1} max={30} step={0.5} digits={1} value={period.value} onChange={(value) => (period.value = value)} />

@@ -63,3 +63,11 @@ export function useDomain(name: string): Domain {
   if (!key || fetched?.key !== key) return domain;
   return { ...domain, span: widened(fetched.histogram), histogram: fetched.histogram };
 }
+
+/** The values of a volume, asked of the server where it has to be. */
+export async function spanOf(name: string): Promise<Span> {
+  const proxies = scene.peek()?.proxies ?? [];
+  const kind = proxies.find((one) => one.name === name)?.kind;
+  if (kind !== "file" && kind !== "gradient") return domainOf(name, volume.peek(), proxies).span;
+  return fetchHistogram(name).then(widened, () => ({ lo: 0, hi: 1 }));
+}

@@ -96,7 +96,7 @@ function ProxyFields({ of, proxy, index }: { of: Scene; proxy: Proxy; index: num
     of.proxies.some((other) => other.kind !== "file" && other.of === proxy.name) ||
     (of.visibility?.important ?? []).some((one) => one.volume === proxy.name || one.along === proxy.name);
   return (
-    <div class="card">
+    <div class="panel-card">
       <header>
         <strong>{proxy.name}</strong>
         <small title={proxy.path}>

@@ -107,7 +107,7 @@ function ImportanceCard({ of, entry, index }: { of: Scene; entry: Importance; in
   const isRegion = entry.center_mm !== undefined;
   const title = isRegion ? "Region" : isLabels ? `Labels of ${of.proxies[proxy]!.of}` : "Values";
   return (
-    <div class="card">
+    <div class="panel-card">
       <header>
         <strong>{title}</strong>
         <small />
