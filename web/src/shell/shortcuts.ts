@@ -98,6 +98,7 @@ export const pointerHelp: readonly { keys: string; what: string }[] = [
   { keys: "Wheel, pinch, Ctrl + drag", what: "Zoom" },
   { keys: "Alt + drag, twist", what: "Roll" },
   { keys: "Double click, double tap", what: "Orbit around this point" },
+  { keys: "Click, beside slices", what: "Slices through this point" },
   { keys: "Wheel or Shift + drag on a light", what: "Its distance" },
 ];
 

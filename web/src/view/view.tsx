@@ -1,4 +1,6 @@
 import { useEffect, useRef } from "preact/hooks";
+import { setCrosshair } from "../state/crosshair";
+import { layout } from "../state/preferences";
 import { scene } from "../state/scene";
 import { setTarget } from "./camera-control";
 import { ClipHandles } from "./clip-handles";
@@ -28,10 +30,13 @@ export function View() {
     });
     observer.observe(element);
     const detach = attachNavigation(element, {
-      click: (x, y) => {
+      click: async (x, y) => {
         const at = inArea(x, y);
-        if (measuring.peek()) void setEnd(at.x, at.y);
-        else pointAt(at);
+        if (measuring.peek()) return void setEnd(at.x, at.y);
+        pointAt(at);
+        if (layout.peek() !== "slices") return;
+        const place = (await probeAt(at.x, at.y))?.position_mm;
+        if (place) setCrosshair(place);
       },
       doubleClick: async (x, y) => {
         const at = inArea(x, y);

@@ -262,7 +262,7 @@ function colorStops(rule: Rule, span: Span, materialColor: (name: string) => str
 
 /** Round opacities across, for the eye to hold on to. */
 function Grid(props: { span: Span; width: number; y(opacity: number): number; fine: boolean }) {
-  const levels = props.fine ? [0.001, 0.01, 0.1, 1] : [0.25, 0.5, 0.75, 1];
+  const levels = props.fine ? [0.01, 0.1, 0.5, 1] : [0.25, 0.5, 0.75, 1];
   return (
     <g class="grid">
       {levels.map((level) => (
