@@ -12,7 +12,11 @@ interface Entry {
 }
 
 const icons: Record<Entry["kind"], IconName> = {
-  folder: "folder", volume: "volume", scene: "layers", environment: "sun", other: "file",
+  folder: "folder",
+  volume: "volume",
+  scene: "layers",
+  environment: "sun",
+  other: "file",
 };
 
 export function formatBytes(bytes: number): string {
@@ -43,16 +47,23 @@ export function FileBrowser({ onOpen }: { onOpen?(): void }) {
     openPath(entry.path);
     onOpen?.();
   };
-  const order = (entry: Entry) => (entry.kind === "folder" ? 0 : entry.kind === "other" || entry.kind === "environment" ? 2 : 1);
-  const sorted = entries?.slice().sort((a, b) => order(a) - order(b) || a.name.localeCompare(b.name, undefined, { numeric: true }));
+  const order = (entry: Entry) =>
+    entry.kind === "folder" ? 0 : entry.kind === "other" || entry.kind === "environment" ? 2 : 1;
+  const sorted = entries
+    ?.slice()
+    .sort((a, b) => order(a) - order(b) || a.name.localeCompare(b.name, undefined, { numeric: true }));
   return (
     <div class="files">
       <nav class="crumbs" aria-label="Folder">
-        <button type="button" onClick={() => setPath("")}>{hello.value?.folder.split("/").pop() || "Files"}</button>
+        <button type="button" onClick={() => setPath("")}>
+          {hello.value?.folder.split("/").pop() || "Files"}
+        </button>
         {parts.map((part, i) => (
           <>
             <Icon name="chevron" size={12} />
-            <button type="button" onClick={() => setPath(parts.slice(0, i + 1).join("/"))}>{part}</button>
+            <button type="button" onClick={() => setPath(parts.slice(0, i + 1).join("/"))}>
+              {part}
+            </button>
           </>
         ))}
       </nav>
