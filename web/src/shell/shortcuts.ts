@@ -1,5 +1,14 @@
 import { newGesture, redo, scene, undo } from "../state/scene";
-import { axisViews, fitView, lookFrom, orbitBy, panByPixels, rollBy, toggleProjection, zoomBy } from "../view/camera-control";
+import {
+  axisViews,
+  fitView,
+  lookFrom,
+  orbitBy,
+  panByPixels,
+  rollBy,
+  toggleProjection,
+  zoomBy,
+} from "../view/camera-control";
 import { cancelMeasuring, measuring, removeLast } from "../view/measure";
 import { toggleClip, toggleLights, toggleMeasuring, toggleSplit } from "../view/toolbar";
 import { helpShown, toggleFullscreen, toggleSlices } from "./page-state";
@@ -27,7 +36,10 @@ const key = (name: string) => (event: KeyboardEvent) => event.key.toLowerCase() 
 const control = (name: string, shift: boolean) => (event: KeyboardEvent) =>
   event.key.toLowerCase() === name && (event.ctrlKey || event.metaKey) && event.shiftKey === shift;
 const arrows: Record<string, readonly [number, number]> = {
-  ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1],
+  ArrowLeft: [-1, 0],
+  ArrowRight: [1, 0],
+  ArrowUp: [0, 1],
+  ArrowDown: [0, -1],
 };
 const isArrow = (event: KeyboardEvent) => event.key in arrows && plain(event);
 
@@ -40,54 +52,115 @@ const kTogether_ms = 800;
 
 export const shortcuts: readonly Shortcut[] = [
   {
-    keys: ["Arrows"], what: "Orbit", group: "Camera", inView: true,
+    keys: ["Arrows"],
+    what: "Orbit",
+    group: "Camera",
+    inView: true,
     matches: (event) => isArrow(event) && !event.shiftKey,
     run: ({ key: name }, gesture) => orbitBy(arrows[name]![0] * kOrbit_deg, arrows[name]![1] * kOrbit_deg, gesture),
   },
   {
-    keys: ["Shift", "Arrows"], what: "Move sideways", group: "Camera", inView: true,
+    keys: ["Shift", "Arrows"],
+    what: "Move sideways",
+    group: "Camera",
+    inView: true,
     matches: (event) => isArrow(event) && event.shiftKey,
     run: ({ key: name }, gesture) => panByPixels(arrows[name]![0] * kPan_px, -arrows[name]![1] * kPan_px, gesture),
   },
   {
-    keys: ["+", "-"], what: "Zoom", group: "Camera",
+    keys: ["+", "-"],
+    what: "Zoom",
+    group: "Camera",
     matches: (event) => ["+", "=", "-"].some((name) => key(name)(event)),
     run: (event, gesture) => zoomBy(event.key === "-" ? 1 / kZoom : kZoom, gesture),
   },
   {
-    keys: ["[", "]"], what: "Roll", group: "Camera",
+    keys: ["[", "]"],
+    what: "Roll",
+    group: "Camera",
     matches: (event) => key("[")(event) || key("]")(event),
     run: (event, gesture) => rollBy(event.key === "]" ? kRoll_deg : -kRoll_deg, gesture),
   },
   {
-    keys: ["1", "...", "6"], what: "View from anterior, posterior, left, right, superior, inferior", group: "Camera",
+    keys: ["1", "...", "6"],
+    what: "View from anterior, posterior, left, right, superior, inferior",
+    group: "Camera",
     matches: (event) => axisViews.some((_, i) => key(String(i + 1))(event)),
     run: (event) => {
       const { azimuth_deg, elevation_deg } = axisViews[Number(event.key) - 1]!;
       lookFrom(azimuth_deg, elevation_deg);
     },
   },
-  { keys: ["F"], what: "Fit the volume into the view", group: "Camera", matches: (event) => key("f")(event) && !event.shiftKey, run: fitView },
-  { keys: ["O"], what: "Perspective or parallel projection", group: "Camera", matches: key("o"), run: toggleProjection },
+  {
+    keys: ["F"],
+    what: "Fit the volume into the view",
+    group: "Camera",
+    matches: (event) => key("f")(event) && !event.shiftKey,
+    run: fitView,
+  },
+  {
+    keys: ["O"],
+    what: "Perspective or parallel projection",
+    group: "Camera",
+    matches: key("o"),
+    run: toggleProjection,
+  },
   { keys: ["M"], what: "Measure distances", group: "Tools", matches: key("m"), run: toggleMeasuring },
   {
-    keys: ["Delete"], what: "Delete the last distance", group: "Tools", inView: true,
-    matches: (event) => measuring.value && (key("delete")(event) || key("backspace")(event)), run: removeLast,
+    keys: ["Delete"],
+    what: "Delete the last distance",
+    group: "Tools",
+    inView: true,
+    matches: (event) => measuring.value && (key("delete")(event) || key("backspace")(event)),
+    run: removeLast,
   },
-  { keys: ["Esc"], what: "End measuring", group: "Tools", matches: (event) => measuring.value && key("escape")(event), run: cancelMeasuring },
+  {
+    keys: ["Esc"],
+    what: "End measuring",
+    group: "Tools",
+    matches: (event) => measuring.value && key("escape")(event),
+    run: cancelMeasuring,
+  },
   { keys: ["L"], what: "Light handles", group: "Tools", matches: key("l"), run: toggleLights },
   { keys: ["C"], what: "Clip handles", group: "Tools", matches: key("c"), run: toggleClip },
-  { keys: ["D"], what: "Compare with the picture before the denoiser", group: "Tools", matches: key("d"), run: toggleSplit },
+  {
+    keys: ["D"],
+    what: "Compare with the picture before the denoiser",
+    group: "Tools",
+    matches: key("d"),
+    run: toggleSplit,
+  },
   { keys: ["S"], what: "Slices beside the picture", group: "Tools", matches: key("s"), run: toggleSlices },
   { keys: ["Ctrl", "Z"], what: "Undo", group: "Page", matches: control("z", false), run: undo },
   {
-    keys: ["Ctrl", "Shift", "Z"], what: "Redo", group: "Page",
-    matches: (event) => control("z", true)(event) || control("y", false)(event), run: redo,
+    keys: ["Ctrl", "Shift", "Z"],
+    what: "Redo",
+    group: "Page",
+    matches: (event) => control("z", true)(event) || control("y", false)(event),
+    run: redo,
   },
-  { keys: ["Ctrl", "O"], what: "Open a volume or scene", group: "Page", matches: control("o", false), run: () => (openDialog.value = true) },
+  {
+    keys: ["Ctrl", "O"],
+    what: "Open a volume or scene",
+    group: "Page",
+    matches: control("o", false),
+    run: () => (openDialog.value = true),
+  },
   { keys: ["Ctrl", "S"], what: "Save the picture (PNG)", group: "Page", matches: control("s", false), run: savePng },
-  { keys: ["Ctrl", "Shift", "L"], what: "Copy a link to this scene", group: "Page", matches: control("l", true), run: copyLink },
-  { keys: ["Shift", "F"], what: "Full screen", group: "Page", matches: (event) => key("f")(event) && event.shiftKey, run: toggleFullscreen },
+  {
+    keys: ["Ctrl", "Shift", "L"],
+    what: "Copy a link to this scene",
+    group: "Page",
+    matches: control("l", true),
+    run: copyLink,
+  },
+  {
+    keys: ["Shift", "F"],
+    what: "Full screen",
+    group: "Page",
+    matches: (event) => key("f")(event) && event.shiftKey,
+    run: toggleFullscreen,
+  },
   { keys: ["?"], what: "This help", group: "Page", matches: key("?"), run: () => (helpShown.value = !helpShown.value) },
 ];
 

@@ -66,7 +66,10 @@ export function SliceView({ plane, overlay }: { plane: Plane; overlay: string })
 
   const grey = useMemo(() => shown && bitmapOf(paintGrey(shown.data, window)), [shown?.data, window]);
   const names = labels.value[overlay];
-  const tint = useMemo(() => (shown?.labels && names ? bitmapOf(paintLabels(shown.labels, names)) : null), [shown?.labels, names]);
+  const tint = useMemo(
+    () => (shown?.labels && names ? bitmapOf(paintLabels(shown.labels, names)) : null),
+    [shown?.labels, names],
+  );
   const header = shown?.data.header;
   const placement = header && fitSlice(header, size.width, size.height);
 
@@ -83,7 +86,13 @@ export function SliceView({ plane, overlay }: { plane: Plane; overlay: string })
       context.scale(1, -1);
     }
     const draw = (bitmap: HTMLCanvasElement) =>
-      context.drawImage(bitmap, placement.left, placement.top, placement.zoom * header.width, placement.zoom * header.height);
+      context.drawImage(
+        bitmap,
+        placement.left,
+        placement.top,
+        placement.zoom * header.width,
+        placement.zoom * header.height,
+      );
     context.imageSmoothingQuality = "high";
     draw(grey);
     if (tint) {
@@ -109,7 +118,11 @@ export function SliceView({ plane, overlay }: { plane: Plane; overlay: string })
   const down = (event: PointerEvent) => {
     if (event.button === 2 || (event.button === 0 && dragTool.value === "window")) {
       const from = window;
-      startDrag(event, { move: ({ dx, dy }) => setWindow(dragWindow(from, dx, dy, facts.range[1] - facts.range[0])) }, [0, 2]);
+      startDrag(
+        event,
+        { move: ({ dx, dy }) => setWindow(dragWindow(from, dx, dy, facts.range[1] - facts.range[0])) },
+        [0, 2],
+      );
       return;
     }
     const first = pointAt(event);
@@ -133,7 +146,9 @@ export function SliceView({ plane, overlay }: { plane: Plane; overlay: string })
     event.stopPropagation();
     moveTo(mm + steps * step);
   };
-  const value = at && shown && valueAt(shown.data, layout.normal, shown.mm, at, plane);
+  const value = at && shown ? valueAt(shown.data, shown.mm, at, plane) : undefined;
+  const label = at && shown?.labels ? valueAt(shown.labels, shown.mm, at, plane) : undefined;
+  const labelName = label ? names?.find((one) => one.value === Math.round(label))?.name : undefined;
   const cross = at && header && placement && canvasOf(layout, header, placement, at);
   const { letters } = layout;
   return (
@@ -162,7 +177,13 @@ export function SliceView({ plane, overlay }: { plane: Plane; overlay: string })
       <span class={`slice-title ${plane}`}>{layout.title}</span>
       <span class="slice-readout">
         {describeSide(layout.normal, mm)}
-        {value !== undefined && value !== null && <b>{formatNumber(value, facts.hounsfield ? 1 : (facts.range[1] - facts.range[0]) / 1000)}{facts.hounsfield ? " HU" : ""}</b>}
+        {value !== undefined && (
+          <b>
+            {formatNumber(value, facts.hounsfield ? 1 : (facts.range[1] - facts.range[0]) / 1000)}
+            {facts.hounsfield ? " HU" : ""}
+          </b>
+        )}
+        {labelName && <span>{labelName.replaceAll("_", " ")}</span>}
       </span>
       {failure && <span class="slice-failure">{failure}</span>}
       <input
@@ -181,7 +202,11 @@ export function SliceView({ plane, overlay }: { plane: Plane; overlay: string })
 }
 
 function describeSide(normal: 0 | 1 | 2, mm: number): string {
-  const sides = [["R", "L"], ["A", "P"], ["I", "S"]] as const;
+  const sides = [
+    ["R", "L"],
+    ["A", "P"],
+    ["I", "S"],
+  ] as const;
   return `${sides[normal][mm < 0 ? 0 : 1]} ${Math.abs(mm).toFixed(1)} mm`;
 }
 
@@ -193,11 +218,11 @@ function bitmapOf(image: ImageData): HTMLCanvasElement {
   return bitmap;
 }
 
-/** The value under the crosshair; only while the slice on screen is the one through it. */
-function valueAt(data: Slice, normal: 0 | 1 | 2, mm: number, at: Vec3, plane: Plane): number | undefined {
-  if (Math.abs(at[normal] - mm) > 1e-6) return undefined;
-  const index = sampleIndex(planes[plane], data.header, at);
-  return index === undefined ? undefined : decode(data.header, data.samples[index]!);
+/** What a slice has under the crosshair; only while it is the one through it. */
+function valueAt(slice: Slice, mm: number, at: Vec3, plane: Plane): number | undefined {
+  if (Math.abs(at[planes[plane].normal] - mm) > 1e-6) return undefined;
+  const index = sampleIndex(planes[plane], slice.header, at);
+  return index === undefined ? undefined : decode(slice.header, slice.samples[index]!);
 }
 
 /** Lines in the colors of the planes that they are, open in the middle so that what is marked stays in sight. */

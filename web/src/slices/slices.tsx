@@ -74,14 +74,21 @@ export function SliceBar() {
   };
   return (
     <div class="slice-bar" role="toolbar" aria-label="Slices">
-      <IconButton icon="fit" label="Click a point in the picture to go there" pressed={picking.value} onClick={() => void locate()} />
+      <IconButton
+        icon="fit"
+        label="Click a point in the picture to go there"
+        pressed={picking.value}
+        onClick={() => void locate()}
+      />
       <IconButton
         icon="contrast"
         label="Drag changes brightness and contrast (else the right button does)"
         pressed={dragTool.value === "window"}
         onClick={() => (dragTool.value = dragTool.value === "window" ? "crosshair" : "window")}
       />
-      <span class="slice-position" aria-live="off">{describePosition(at)} mm</span>
+      <span class="slice-position" aria-live="off">
+        {describePosition(at)} mm
+      </span>
       <span class="spring" />
       <span class="window-presets">
         {presets.map((preset) => (
@@ -95,17 +102,51 @@ export function SliceBar() {
           </button>
         ))}
       </span>
-      <label class="bar-number">L <NumberInput label="Level" digits={1} value={window.level} onChange={(level) => setWindow({ ...window, level })} /></label>
-      <label class="bar-number">W <NumberInput label="Width" digits={1} min={1e-9} value={window.width} onChange={(width) => setWindow({ ...window, width })} /></label>
+      <label class="bar-number">
+        L{" "}
+        <NumberInput
+          label="Level"
+          digits={1}
+          value={window.level}
+          onChange={(level) => setWindow({ ...window, level })}
+        />
+      </label>
+      <label class="bar-number">
+        W{" "}
+        <NumberInput
+          label="Width"
+          digits={1}
+          min={1e-9}
+          value={window.width}
+          onChange={(width) => setWindow({ ...window, width })}
+        />
+      </label>
       {known.length > 0 && (
         <>
-          <select class="bar-select" aria-label="Labels over the slices" value={overlay} onChange={(event) => (overlayVolume.value = event.currentTarget.value)}>
+          <select
+            class="bar-select"
+            aria-label="Labels over the slices"
+            value={overlay}
+            onChange={(event) => (overlayVolume.value = event.currentTarget.value)}
+          >
             <option value="">No labels</option>
-            {known.map((name) => <option key={name} value={name}>{name}</option>)}
+            {known.map((name) => (
+              <option key={name} value={name}>
+                {name}
+              </option>
+            ))}
           </select>
-          <input class="bar-opacity" type="range" min={0} max={100} aria-label="Opacity of the labels" disabled={!overlay}
-            value={overlayOpacity.value * 100} style={{ "--share": overlayOpacity.value }}
-            onInput={(event) => (overlayOpacity.value = Number(event.currentTarget.value) / 100)} />
+          <input
+            class="bar-opacity"
+            type="range"
+            min={0}
+            max={100}
+            aria-label="Opacity of the labels"
+            disabled={!overlay}
+            value={overlayOpacity.value * 100}
+            style={{ "--share": overlayOpacity.value }}
+            onInput={(event) => (overlayOpacity.value = Number(event.currentTarget.value) / 100)}
+          />
         </>
       )}
     </div>

@@ -15,7 +15,13 @@ export interface MenuItem {
 }
 
 /** A button that opens a list of things to do. Arrow keys walk it, Escape closes it. */
-export function Menu(props: { label: string; icon: IconName; items: readonly MenuItem[]; children?: ComponentChildren; disabled?: boolean }) {
+export function Menu(props: {
+  label: string;
+  icon: IconName;
+  items: readonly MenuItem[];
+  children?: ComponentChildren;
+  disabled?: boolean;
+}) {
   const [open, setOpen] = useState(false);
   const root = useRef<HTMLDivElement>(null);
   useEffect(() => {
@@ -72,7 +78,15 @@ export function Menu(props: { label: string; icon: IconName; items: readonly Men
                   item.run();
                 }}
               >
-                {item.checked !== undefined ? (item.checked ? <Icon name="check" /> : <span class="no-icon" />) : item.icon && <Icon name={item.icon} />}
+                {item.checked !== undefined ? (
+                  item.checked ? (
+                    <Icon name="check" />
+                  ) : (
+                    <span class="no-icon" />
+                  )
+                ) : (
+                  item.icon && <Icon name={item.icon} />
+                )}
                 <span class="menu-text">
                   {item.label}
                   {item.hint && <small>{item.hint}</small>}

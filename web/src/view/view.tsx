@@ -63,8 +63,13 @@ export function View() {
   }, []);
   const ready = scene.value && view.value;
   return (
-    <div ref={area} class={measuring.value ? "view measuring" : "view"} tabIndex={0} role="application"
-      aria-label="View of the volume. Arrow keys orbit, plus and minus zoom, question mark lists all keys.">
+    <div
+      ref={area}
+      class={measuring.value ? "view measuring" : "view"}
+      tabIndex={0}
+      role="application"
+      aria-label="View of the volume. Arrow keys orbit, plus and minus zoom, question mark lists all keys."
+    >
       <Picture />
       {ready && (
         <>
@@ -74,7 +79,9 @@ export function View() {
             <SplitHandle />
             <ClipHandles />
             <LightHandles />
-            {overlays.value.map(({ id, component: Overlay }) => <Overlay key={id} />)}
+            {overlays.value.map(({ id, component: Overlay }) => (
+              <Overlay key={id} />
+            ))}
             <Measurements />
           </svg>
           <Toolbar />

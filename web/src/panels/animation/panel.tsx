@@ -64,17 +64,26 @@ export function AnimationPanel() {
         <Button icon="key" primary onClick={add} title="Keeps how the chosen parts are now">
           Add keyframe
         </Button>
-        <IconButton icon="check" label="Replace what the chosen keyframe holds by how it is now" disabled={!key} onClick={() => key && captureAt(key.time)} />
+        <IconButton
+          icon="check"
+          label="Replace what the chosen keyframe holds by how it is now"
+          disabled={!key}
+          onClick={() => key && captureAt(key.time)}
+        />
         <span class="part-choice" role="group" aria-label="What a keyframe holds">
           {parts.map(({ part, title }) => (
             <Part key={part} part={part} title={title} disabled={part === "clip" && !of.clip} />
           ))}
         </span>
-        <IconButton icon="delete" label="Delete the chosen keyframe" disabled={!key || !animation}
+        <IconButton
+          icon="delete"
+          label="Delete the chosen keyframe"
+          disabled={!key || !animation}
           onClick={() => {
             set(orStill(deleteKeyframe(animation!, key!.time)));
             setSelected(null);
-          }} />
+          }}
+        />
         <span class="spring" />
         <Turntable animation={animation} />
         <Timing of={of} />
@@ -89,10 +98,21 @@ export function AnimationPanel() {
 function Transport() {
   return (
     <>
-      <IconButton icon={playing.value ? "pause" : "play"} label={playing.value ? "Pause" : "Play"} disabled={duration.value === 0}
-        onClick={() => (playing.value ? pause() : void play())} />
-      <IconButton icon="reset" label="To the beginning" disabled={duration.value === 0} onClick={() => (pause(), seek(0))} />
-      <span class="time">{playhead.value.toFixed(2)} <small>/ {duration.value.toFixed(2)} s</small></span>
+      <IconButton
+        icon={playing.value ? "pause" : "play"}
+        label={playing.value ? "Pause" : "Play"}
+        disabled={duration.value === 0}
+        onClick={() => (playing.value ? pause() : void play())}
+      />
+      <IconButton
+        icon="reset"
+        label="To the beginning"
+        disabled={duration.value === 0}
+        onClick={() => (pause(), seek(0))}
+      />
+      <span class="time">
+        {playhead.value.toFixed(2)} <small>/ {duration.value.toFixed(2)} s</small>
+      </span>
       <Button disabled={!previewing.value} title="Shows the scene as it is, not the animation" onClick={endPreview}>
         {previewing.value ? "End preview" : "Live"}
       </Button>
@@ -109,7 +129,12 @@ function Part({ part, title, disabled }: { part: CapturePart; title: string; dis
   };
   return (
     <label class={disabled ? "disabled" : ""}>
-      <input type="checkbox" checked={chosenParts.value.has(part) && !disabled} disabled={disabled} onChange={(event) => toggle(event.currentTarget.checked)} />
+      <input
+        type="checkbox"
+        checked={chosenParts.value.has(part) && !disabled}
+        disabled={disabled}
+        onChange={(event) => toggle(event.currentTarget.checked)}
+      />
       {title}
     </label>
   );
@@ -119,22 +144,42 @@ function Turntable({ animation }: { animation: Animation | undefined }) {
   const turntable = animation?.turntable;
   if (!turntable)
     return (
-      <Button icon="turntable" title="Once around in 6 s" onClick={() => set({ ...(animation ?? emptyAnimation), turntable: { seconds: 6, turns: 1 } })}>
+      <Button
+        icon="turntable"
+        title="Once around in 6 s"
+        onClick={() => set({ ...(animation ?? emptyAnimation), turntable: { seconds: 6, turns: 1 } })}
+      >
         Turntable
       </Button>
     );
   return (
     <span class="bar-group">
       <Icon name="turntable" />
-      <NumberInput label="Turns" digits={2} min={-50} max={50} value={turntable.turns} unit="×"
-        onChange={(turns, gesture) => edit([["/animation/turntable/turns", turns]], gesture)} />
-      <NumberInput label="Seconds of all turns" digits={2} min={0.05} unit="s" value={turntable.seconds}
-        onChange={(seconds, gesture) => edit([["/animation/turntable/seconds", seconds]], gesture)} />
-      <IconButton icon="close" label="Remove the turntable"
+      <NumberInput
+        label="Turns"
+        digits={2}
+        min={-50}
+        max={50}
+        value={turntable.turns}
+        unit="×"
+        onChange={(turns, gesture) => edit([["/animation/turntable/turns", turns]], gesture)}
+      />
+      <NumberInput
+        label="Seconds of all turns"
+        digits={2}
+        min={0.05}
+        unit="s"
+        value={turntable.seconds}
+        onChange={(seconds, gesture) => edit([["/animation/turntable/seconds", seconds]], gesture)}
+      />
+      <IconButton
+        icon="close"
+        label="Remove the turntable"
         onClick={() => {
           const { turntable: _, ...rest } = animation;
           set(orStill(rest));
-        }} />
+        }}
+      />
     </span>
   );
 }
@@ -146,15 +191,26 @@ function Timing({ of }: { of: Scene }) {
   return (
     <span class="bar-group">
       {animation.tracks.length > 0 && (
-        <select class="bar-select" aria-label="Between keyframes" value={interpolation}
-          onChange={(event) => set(interpolateAll(animation, event.currentTarget.value as Track["interpolation"]))}>
+        <select
+          class="bar-select"
+          aria-label="Between keyframes"
+          value={interpolation}
+          onChange={(event) => set(interpolateAll(animation, event.currentTarget.value as Track["interpolation"]))}
+        >
           <option value="smooth">Smooth</option>
           <option value="linear">Linear</option>
           <option value="step">Steps</option>
         </select>
       )}
-      <NumberInput label="Frames a second" unit="fps" digits={2} min={1} max={1000} value={animation.fps}
-        onChange={(fps, gesture) => edit([["/animation/fps", fps]], gesture)} />
+      <NumberInput
+        label="Frames a second"
+        unit="fps"
+        digits={2}
+        min={1}
+        max={1000}
+        value={animation.fps}
+        onChange={(fps, gesture) => edit([["/animation/fps", fps]], gesture)}
+      />
     </span>
   );
 }
@@ -164,13 +220,20 @@ const format = signal<(typeof formats)[number]>("mp4");
 
 function Export({ frames, name }: { frames: number; name: string }) {
   const state = exporting.value;
-  const stem = name.split("/").at(-1)!.replace(/(\.nii)?\.[^.]*$/, "").replace(/[^\w-]+/g, "-") || "animation";
+  const stem =
+    name
+      .split("/")
+      .at(-1)!
+      .replace(/(\.nii)?\.[^.]*$/, "")
+      .replace(/[^\w-]+/g, "-") || "animation";
   if (state?.state === "running") {
     const share = state.frames ? state.frames_done / state.frames : 0;
     return (
       <span class="bar-group" role="status">
         <progress value={share} aria-label="Writing the animation" />
-        <span class="time">{state.frames_done} <small>/ {state.frames}</small></span>
+        <span class="time">
+          {state.frames_done} <small>/ {state.frames}</small>
+        </span>
         <Button onClick={() => send({ type: "cancel_export" })}>Cancel</Button>
       </span>
     );
@@ -179,14 +242,35 @@ function Export({ frames, name }: { frames: number; name: string }) {
     <span class="bar-group">
       {state?.state === "done" && (
         <a class="button" href={`api/export/${encodeURIComponent(state.file)}`} download={state.file}>
-          <Icon name="download" />{state.file}
+          <Icon name="download" />
+          {state.file}
         </a>
       )}
-      {state?.state === "failed" && <span class="note warning" title={state.message}>{state.message ?? "Failed"}</span>}
-      <select class="bar-select" aria-label="Format" value={format.value} onChange={(event) => (format.value = event.currentTarget.value as (typeof formats)[number])}>
-        {formats.map((one) => <option key={one} value={one}>{one === "zip" ? "PNG (zip)" : one}</option>)}
+      {state?.state === "failed" && (
+        <span class="note warning" title={state.message}>
+          {state.message ?? "Failed"}
+        </span>
+      )}
+      <select
+        class="bar-select"
+        aria-label="Format"
+        value={format.value}
+        onChange={(event) => (format.value = event.currentTarget.value as (typeof formats)[number])}
+      >
+        {formats.map((one) => (
+          <option key={one} value={one}>
+            {one === "zip" ? "PNG (zip)" : one}
+          </option>
+        ))}
       </select>
-      <Button icon="film" disabled={frames === 0} title={`${frames} frames`} onClick={() => (endPreview(), send({ type: "export", file: `${stem}.${format.value}` }))}>Export</Button>
+      <Button
+        icon="film"
+        disabled={frames === 0}
+        title={`${frames} frames`}
+        onClick={() => (endPreview(), send({ type: "export", file: `${stem}.${format.value}` }))}
+      >
+        Export
+      </Button>
     </span>
   );
 }

@@ -83,6 +83,11 @@ effect(() => {
   const before = seen;
   seen = now;
   if (!now || !before || !seeking.peek()) return;
-  if (now.camera !== before.camera || now.transfer !== before.transfer || now.lights !== before.lights || now.clip !== before.clip)
+  if (
+    now.camera !== before.camera ||
+    now.transfer !== before.transfer ||
+    now.lights !== before.lights ||
+    now.clip !== before.clip
+  )
     endPreview();
 });

@@ -23,7 +23,15 @@ const lanes: readonly { title: string; of: readonly string[] }[] = [
 const inLane = (of: readonly string[]) => (field: string) => of.some((start) => field.startsWith(`${start}/`));
 
 /** Time to the right; a keyframe is a diamond, and a dot in the lane of all that it moves. */
-export function KeyframeStrip({ of, selected, onSelect }: { of: Scene; selected: number | null; onSelect(time: number | null): void }) {
+export function KeyframeStrip({
+  of,
+  selected,
+  onSelect,
+}: {
+  of: Scene;
+  selected: number | null;
+  onSelect(time: number | null): void;
+}) {
   const frame = useRef<HTMLDivElement>(null);
   const root = useRef<SVGSVGElement>(null);
   const whole = useWidth(frame, 800);
@@ -35,7 +43,8 @@ export function KeyframeStrip({ of, selected, onSelect }: { of: Scene; selected:
   const fps = animation?.fps ?? 30;
   const end = Math.max(durationOf(animation), keyframes.at(-1)?.time ?? 0, 4) * 1.08;
   const x = (time: number) => gutter + (time / end) * width;
-  const timeAt = (clientX: number) => clamp(((clientX - root.current!.getBoundingClientRect().left - gutter) / width) * end, 0, end);
+  const timeAt = (clientX: number) =>
+    clamp(((clientX - root.current!.getBoundingClientRect().left - gutter) / width) * end, 0, end);
   const onFrame = (time: number) => Math.round(time * fps) / fps;
   const height = ruler + lane * (lanes.length + 1) + 4;
 
@@ -91,24 +100,40 @@ export function KeyframeStrip({ of, selected, onSelect }: { of: Scene; selected:
         {marks.map((time) => (
           <g key={time} class="mark">
             <line x1={x(time)} x2={x(time)} y1={ruler - 5} y2={height} />
-            <text x={x(time) + 3} y={11}>{formatNumber(time, step / 2)} s</text>
+            <text x={x(time) + 3} y={11}>
+              {formatNumber(time, step / 2)} s
+            </text>
           </g>
         ))}
         {animation?.turntable && (
           <g class="turntable">
-            <rect x={x(0)} y={ruler + 3} width={Math.max(1, x(animation.turntable.seconds) - x(0))} height={lane - 6} rx={3} />
-            <text x={x(0) + 14} y={ruler + 14}>{animation.turntable.turns === 1 ? "Turntable" : `Turntable, ${animation.turntable.turns} turns`}</text>
+            <rect
+              x={x(0)}
+              y={ruler + 3}
+              width={Math.max(1, x(animation.turntable.seconds) - x(0))}
+              height={lane - 6}
+              rx={3}
+            />
+            <text x={x(0) + 14} y={ruler + 14}>
+              {animation.turntable.turns === 1 ? "Turntable" : `Turntable, ${animation.turntable.turns} turns`}
+            </text>
           </g>
         )}
-        <text class="lane" x={8} y={ruler + 14}>Keyframes</text>
+        <text class="lane" x={8} y={ruler + 14}>
+          Keyframes
+        </text>
         {lanes.map(({ title, of: starts }, i) => {
           const y = ruler + lane * (i + 1) + lane / 2;
           const mine = keyframes.filter((key) => key.fields.some(inLane(starts)));
           return (
             <g key={title} class={mine.length ? "lane used" : "lane"}>
-              <text x={8} y={y + 4}>{title}</text>
+              <text x={8} y={y + 4}>
+                {title}
+              </text>
               {mine.length > 1 && <line x1={x(mine[0]!.time)} x2={x(mine.at(-1)!.time)} y1={y} y2={y} />}
-              {mine.map((key) => <circle key={key.time} cx={x(key.time)} cy={y} r={3} />)}
+              {mine.map((key) => (
+                <circle key={key.time} cx={x(key.time)} cy={y} r={3} />
+              ))}
             </g>
           );
         })}

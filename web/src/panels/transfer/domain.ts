@@ -34,7 +34,10 @@ function domainOf(name: string, facts: VolumeFacts | null, proxies: readonly Pro
   const proxy = proxies.find((one) => one.name === name);
   if (proxy?.kind === "smoothed") return { ...data, unit, discrete: false };
   if (proxy?.kind === "distance") {
-    const [lower, upper] = facts?.bounds_mm ?? [[0, 0, 0], [100, 100, 100]];
+    const [lower, upper] = facts?.bounds_mm ?? [
+      [0, 0, 0],
+      [100, 100, 100],
+    ];
     const quarter = Math.max(...upper.map((x, i) => x - lower[i]!)) / 4;
     return { span: { lo: -quarter, hi: quarter }, histogram: null, unit: "mm", discrete: false };
   }

@@ -90,7 +90,12 @@ function FunctionEditor({ of, index }: { of: Scene; index: number }) {
       <IconButton icon="enlarge" label="Show low opacities larger" pressed={isFine} onClick={() => setFine(!isFine)} />
       <IconButton icon="fit" label="Show all values" disabled={!zoomed} onClick={() => setZoomed(null)} />
       <IconButton icon="add" label="Add a point" onClick={addInMiddle} />
-      <IconButton icon="delete" label="Delete the chosen point" disabled={chosen < 0 || (rule !== null && points.length === 1)} onClick={remove} />
+      <IconButton
+        icon="delete"
+        label="Delete the chosen point"
+        disabled={chosen < 0 || (rule !== null && points.length === 1)}
+        onClick={remove}
+      />
     </>
   );
   return (

@@ -65,7 +65,14 @@ export function RangeHistogram(props: {
     <div ref={frame} class="range-histogram">
       <svg width={whole} height={height} role="group" aria-label={props.label}>
         <path class="histogram" d={bars} />
-        <rect class="range" x={x(range[0])} y={0} width={Math.max(1, x(range[1]) - x(range[0]))} height={height} onPointerDown={dragBoth} />
+        <rect
+          class="range"
+          x={x(range[0])}
+          y={0}
+          width={Math.max(1, x(range[1]) - x(range[0]))}
+          height={height}
+          onPointerDown={dragBoth}
+        />
         {([0, 1] as const).map((end) => (
           <g key={end} class="range-end">
             <line x1={x(range[end]!)} x2={x(range[end]!)} y1={0} y2={height} />
