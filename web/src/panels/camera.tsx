@@ -145,7 +145,7 @@ export function CameraPanel() {
             Level
           </Button>
           <Button
-            icon="measure"
+            icon="fit"
             title="Turn about the point that the slices mark"
             onClick={() => crosshair.value && edit([["/camera/target_mm", crosshair.value]])}
           >

@@ -17,15 +17,15 @@ import { edit, newGesture, scene } from "../../state/scene";
 import { exporting } from "../../state/session";
 import type { Animation, Scene, Track } from "../../state/scene-types";
 import { Button, IconButton, NumberInput } from "../../ui/controls";
-import { Icon } from "../../ui/icons";
+import { Icon, type IconName } from "../../ui/icons";
 import { duration, endPreview, pause, play, playhead, playing, previewing, seek } from "./playback";
 import { KeyframeStrip } from "./strip";
 
-const parts: readonly { part: CapturePart; title: string }[] = [
-  { part: "camera", title: "Camera" },
-  { part: "light", title: "Lights" },
-  { part: "transfer", title: "Transfer" },
-  { part: "clip", title: "Clip box" },
+const parts: readonly { part: CapturePart; title: string; icon: IconName }[] = [
+  { part: "camera", title: "camera", icon: "camera" },
+  { part: "light", title: "lights and environment", icon: "light" },
+  { part: "transfer", title: "transfer function", icon: "curve" },
+  { part: "clip", title: "clip box", icon: "clip" },
 ];
 /** What the next keyframes hold. */
 const chosenParts = signal<ReadonlySet<CapturePart>>(new Set(["camera"]));
@@ -71,8 +71,8 @@ export function AnimationPanel() {
           onClick={() => key && captureAt(key.time)}
         />
         <span class="part-choice" role="group" aria-label="What a keyframe holds">
-          {parts.map(({ part, title }) => (
-            <Part key={part} part={part} title={title} disabled={part === "clip" && !of.clip} />
+          {parts.map((one) => (
+            <Part key={one.part} {...one} disabled={one.part === "clip" && !of.clip} />
           ))}
         </span>
         <IconButton
@@ -113,30 +113,34 @@ function Transport() {
       <span class="time">
         {playhead.value.toFixed(2)} <small>/ {duration.value.toFixed(2)} s</small>
       </span>
-      <Button disabled={!previewing.value} title="Shows the scene as it is, not the animation" onClick={endPreview}>
-        {previewing.value ? "End preview" : "Live"}
-      </Button>
+      <IconButton
+        icon="eye"
+        label={previewing.value ? "Show the scene as it is" : "The picture shows the scene as it is"}
+        pressed={previewing.value}
+        disabled={!previewing.value}
+        onClick={endPreview}
+      />
     </>
   );
 }
 
-function Part({ part, title, disabled }: { part: CapturePart; title: string; disabled: boolean }) {
-  const toggle = (on: boolean) => {
+function Part(props: { part: CapturePart; title: string; icon: IconName; disabled: boolean }) {
+  const { part, title } = props;
+  const on = chosenParts.value.has(part) && !props.disabled;
+  const toggle = () => {
     const next = new Set(chosenParts.peek());
-    if (on) next.add(part);
-    else next.delete(part);
+    if (on) next.delete(part);
+    else next.add(part);
     chosenParts.value = next;
   };
   return (
-    <label class={disabled ? "disabled" : ""}>
-      <input
-        type="checkbox"
-        checked={chosenParts.value.has(part) && !disabled}
-        disabled={disabled}
-        onChange={(event) => toggle(event.currentTarget.checked)}
-      />
-      {title}
-    </label>
+    <IconButton
+      icon={props.icon}
+      label={`Keyframes hold: ${title}`}
+      pressed={on}
+      disabled={props.disabled}
+      onClick={toggle}
+    />
   );
 }
 
@@ -144,13 +148,11 @@ function Turntable({ animation }: { animation: Animation | undefined }) {
   const turntable = animation?.turntable;
   if (!turntable)
     return (
-      <Button
+      <IconButton
         icon="turntable"
-        title="Once around in 6 s"
+        label="Turntable: once around in 6 s"
         onClick={() => set({ ...(animation ?? emptyAnimation), turntable: { seconds: 6, turns: 1 } })}
-      >
-        Turntable
-      </Button>
+      />
     );
   return (
     <span class="bar-group">
@@ -241,9 +243,14 @@ function Export({ frames, name }: { frames: number; name: string }) {
   return (
     <span class="bar-group">
       {state?.state === "done" && (
-        <a class="button" href={`api/export/${encodeURIComponent(state.file)}`} download={state.file}>
+        <a
+          class="icon-button"
+          href={`api/export/${encodeURIComponent(state.file)}`}
+          download={state.file}
+          aria-label={`Save ${state.file}`}
+          title={`Save ${state.file}`}
+        >
           <Icon name="download" />
-          {state.file}
         </a>
       )}
       {state?.state === "failed" && (

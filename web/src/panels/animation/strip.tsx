@@ -109,12 +109,12 @@ export function KeyframeStrip({
           <g class="turntable">
             <rect
               x={x(0)}
-              y={ruler + 3}
+              y={ruler + lane + 3}
               width={Math.max(1, x(animation.turntable.seconds) - x(0))}
               height={lane - 6}
               rx={3}
             />
-            <text x={x(0) + 14} y={ruler + 14}>
+            <text x={x(0) + 14} y={ruler + lane + 14}>
               {animation.turntable.turns === 1 ? "Turntable" : `Turntable, ${animation.turntable.turns} turns`}
             </text>
           </g>

@@ -146,10 +146,10 @@ function MotionFields({ of, light, index }: { of: Scene; light: Light; index: nu
       />
       <div class="row-actions">
         <Button icon="film" title="Writes a turn as tracks of the animation" onClick={() => write("orbit")}>
-          Turn as animation
+          Keep the turn
         </Button>
         <Button icon="film" title="Writes a flash as a track of the animation" onClick={() => write("flash")}>
-          Flash as animation
+          Keep the flash
         </Button>
       </div>
     </div>
