@@ -1,5 +1,5 @@
-/** Scenes in links: the part of the address behind "#scene=" is the scene's JSON, deflated (zlib) and base64url-encoded. It
- * stays in the browser: no server sees it. */
+/** Scenes in links: the part of the address behind "#scene=" is the scene's JSON, deflated (zlib) and
+ * base64url-encoded. It stays in the browser: no server sees it. */
 
 const kKey = "#scene=";
 
