@@ -21,7 +21,7 @@ export function percentileWindow(percentiles: Record<string, number>, range: rea
     : { level: (range[0] + range[1]) / 2, width: Math.max(range[1] - range[0], 1e-6) };
 }
 
-/** A drag of `dx`, `dy` pixels (y downward): to the right widens, upward darkens; `extent` is that of the data's values. */
+/** A drag of `dx`, `dy` pixels (y downward): to the right widens, upward brightens; `extent` is that of the data's values. */
 export function dragWindow(from: Window, dx: number, dy: number, extent: number): Window {
   const perPixel = Math.max(from.width, extent / 200) / 250;
   return { level: from.level + dy * perPixel, width: Math.max(extent / 1e5, from.width + dx * perPixel) };

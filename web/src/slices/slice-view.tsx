@@ -1,5 +1,4 @@
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
-import { formatNumber } from "../model/axis";
 import { newestWins } from "../model/latest";
 import { canvasOf, fitSlice, planes, pointOf, sampleIndex, type Plane } from "../model/slice";
 import { decode, dragWindow } from "../model/window";
@@ -9,7 +8,7 @@ import { labels, volume } from "../state/volume";
 import { startDrag } from "../ui/drag";
 import { fetchSlice, type Slice } from "./fetch-slice";
 import { paintGrey, paintLabels } from "./paint";
-import { dragTool, overlayOpacity, setWindow, sliceWindow } from "./state";
+import { dragTool, overlayOpacity, setWindow, sliceWindow, underCrosshair } from "./state";
 
 /** A slice of the data at `mm` with the labels there. */
 interface Shown {
@@ -102,6 +101,19 @@ export function SliceView({ plane, overlay }: { plane: Plane; overlay: string })
     }
   }, [grey, tint, size, overlayOpacity.value]);
 
+  useEffect(() => {
+    // Planes that are sampled apart would differ by noise: one of them speaks for all.
+    if (plane !== "axial" || !at || !shown) return;
+    const value = valueAt(shown.data, shown.mm, at, plane);
+    const label = shown.labels && Math.round(valueAt(shown.labels, shown.mm, at, plane) ?? 0);
+    const known = label ? names?.find((one) => one.value === label) : undefined;
+    if (Math.abs(at[layout.normal] - shown.mm) < 1e-6)
+      underCrosshair.value =
+        value === undefined
+          ? null
+          : { value, label: known?.name.replaceAll("_", " ") || (label ? `Label ${label}` : "") };
+  }, [shown, at, names]);
+
   if (!facts) return <div ref={root} class="slice" style={{ gridArea: plane }} />;
   const lo = facts.bounds_mm[0][layout.normal];
   const hi = facts.bounds_mm[1][layout.normal];
@@ -146,9 +158,6 @@ export function SliceView({ plane, overlay }: { plane: Plane; overlay: string })
     event.stopPropagation();
     moveTo(mm + steps * step);
   };
-  const value = at && shown ? valueAt(shown.data, shown.mm, at, plane) : undefined;
-  const label = at && shown?.labels ? valueAt(shown.labels, shown.mm, at, plane) : undefined;
-  const labelName = label ? names?.find((one) => one.value === Math.round(label))?.name : undefined;
   const cross = at && header && placement && canvasOf(layout, header, placement, at);
   const { letters } = layout;
   return (
@@ -175,16 +184,7 @@ export function SliceView({ plane, overlay }: { plane: Plane; overlay: string })
       <span class="slice-letter top">{letters.top}</span>
       <span class="slice-letter bottom">{letters.bottom}</span>
       <span class={`slice-title ${plane}`}>{layout.title}</span>
-      <span class="slice-readout">
-        {describeSide(layout.normal, mm)}
-        {value !== undefined && (
-          <b>
-            {formatNumber(value, facts.hounsfield ? 1 : (facts.range[1] - facts.range[0]) / 1000)}
-            {facts.hounsfield ? " HU" : ""}
-          </b>
-        )}
-        {labelName && <span>{labelName.replaceAll("_", " ")}</span>}
-      </span>
+      <span class="slice-readout">{describeSide(layout.normal, mm)}</span>
       {failure && <span class="slice-failure">{failure}</span>}
       <input
         class="slice-slider"

@@ -1,5 +1,6 @@
 import { effect } from "@preact/signals";
 import { useEffect } from "preact/hooks";
+import { formatNumber } from "../model/axis";
 import { describePosition } from "../model/slice";
 import { ctWindows } from "../model/window";
 import { crosshair, setCrosshair } from "../state/crosshair";
@@ -11,7 +12,15 @@ import "../styles/slices.css";
 import { picking, pickPoint } from "../view/pick";
 import { forgetSlices } from "./fetch-slice";
 import { SliceView } from "./slice-view";
-import { dragTool, initialWindow, overlayOpacity, overlayVolume, setWindow, sliceWindow } from "./state";
+import {
+  dragTool,
+  initialWindow,
+  overlayOpacity,
+  overlayVolume,
+  setWindow,
+  sliceWindow,
+  underCrosshair,
+} from "./state";
 
 /** The label volume over the slices: the chosen one, else the first. */
 function shownOverlay(): string {
@@ -67,6 +76,7 @@ export function SliceBar() {
   const presets = facts.hounsfield ? ctWindows : [{ name: "Automatic", window: initialWindow.value }];
   const known = Object.keys(labels.value);
   const overlay = shownOverlay();
+  const under = underCrosshair.value;
   const locate = async () => {
     const answer = await pickPoint();
     if (answer?.position_mm) setCrosshair(answer.position_mm);
@@ -89,6 +99,15 @@ export function SliceBar() {
       <span class="slice-position" aria-live="off">
         {describePosition(at)} mm
       </span>
+      {under && (
+        <span class="slice-value">
+          <b>
+            {formatNumber(under.value, facts.hounsfield ? 1 : (facts.range[1] - facts.range[0]) / 1000)}
+            {facts.hounsfield ? " HU" : ""}
+          </b>
+          {under.label}
+        </span>
+      )}
       <span class="spring" />
       <span class="window-presets">
         {presets.map((preset) => (

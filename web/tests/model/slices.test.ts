@@ -78,7 +78,7 @@ describe("window and level", () => {
     expect(decode(header, 0)).toBeUndefined();
   });
 
-  it("widens to the right, darkens downward is brighter", () => {
+  it("widens to the right and brightens upward", () => {
     const from = { level: 100, width: 250 };
     expect(dragWindow(from, 10, 0, 1000)).toEqual({ level: 100, width: 260 });
     expect(dragWindow(from, 0, 10, 1000).level).toBe(110);
