@@ -78,6 +78,14 @@ export function moveKeyframe(animation: Animation, from: number, to: number): An
   );
 }
 
+/** What a keyframe holds; of two keys of a field at its time the later one. */
+export function valuesAt(animation: Animation, time: number): [string, FieldValue][] {
+  return animation.tracks.flatMap((track) => {
+    const key = track.keys.filter(([t]) => Math.abs(t - time) < together).at(-1);
+    return key ? [[track.field, key[1]] as [string, FieldValue]] : [];
+  });
+}
+
 export function deleteKeyframe(animation: Animation, time: number): Animation {
   return withTracks(
     animation,

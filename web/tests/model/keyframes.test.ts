@@ -9,6 +9,7 @@ import {
   keyframesOf,
   moveKeyframe,
   orStill,
+  valuesAt,
   withTracksOf,
 } from "../../src/model/keyframes";
 
@@ -71,6 +72,15 @@ describe("keyframes", () => {
     expect(deleteKeyframe(two, 0).tracks.map((t) => t.field)).toEqual(["/camera/zoom"]);
     expect(orStill(deleteKeyframe(deleteKeyframe(two, 0), 2))).toBeNull();
     expect(orStill({ ...emptyAnimation, turntable: { seconds: 6, turns: 1 } })).not.toBeNull();
+  });
+
+  it("hold the values of all tracks that have a key there", () => {
+    expect(valuesAt(two, 0)).toEqual([
+      ["/camera/zoom", 1],
+      ["/camera/azimuth_deg", 0],
+    ]);
+    expect(valuesAt(two, 2)).toEqual([["/camera/zoom", 3]]);
+    expect(valuesAt(two, 1)).toEqual([]);
   });
 
   it("replace only the tracks of the same fields", () => {

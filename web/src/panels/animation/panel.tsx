@@ -10,6 +10,7 @@ import {
   interpolateAll,
   keyframesOf,
   orStill,
+  valuesAt,
   type CapturePart,
 } from "../../model/keyframes";
 import { send } from "../../state/connection";
@@ -18,7 +19,7 @@ import { exporting } from "../../state/session";
 import type { Animation, Scene, Track } from "../../state/scene-types";
 import { Button, IconButton, NumberInput } from "../../ui/controls";
 import { Icon, type IconName } from "../../ui/icons";
-import { duration, endPreview, pause, play, playhead, playing, previewing, seek } from "./playback";
+import { duration, endPreview, pause, play, playhead, playing, previewing } from "./playback";
 import { KeyframeStrip } from "./strip";
 
 const parts: readonly { part: CapturePart; title: string; icon: IconName }[] = [
@@ -61,14 +62,23 @@ export function AnimationPanel() {
       <div class="animation-bar" role="toolbar" aria-label="Animation">
         <Transport />
         <span class="bar-divider" />
-        <Button icon="key" primary onClick={add} title="Keeps how the chosen parts are now">
-          Add keyframe
+        <Button icon="key" primary onClick={add} title="Adds a keyframe: keeps how the chosen parts are now">
+          Keyframe
         </Button>
         <IconButton
           icon="check"
           label="Replace what the chosen keyframe holds by how it is now"
           disabled={!key}
           onClick={() => key && captureAt(key.time)}
+        />
+        <IconButton
+          icon="upload"
+          label="Set the scene as the chosen keyframe holds it"
+          disabled={!key || !animation}
+          onClick={() => {
+            endPreview();
+            edit(valuesAt(animation!, key!.time), newGesture("keyframe-apply"));
+          }}
         />
         <span class="part-choice" role="group" aria-label="What a keyframe holds">
           {parts.map((one) => (
@@ -103,12 +113,6 @@ function Transport() {
         label={playing.value ? "Pause" : "Play"}
         disabled={duration.value === 0}
         onClick={() => (playing.value ? pause() : void play())}
-      />
-      <IconButton
-        icon="reset"
-        label="To the beginning"
-        disabled={duration.value === 0}
-        onClick={() => (pause(), seek(0))}
       />
       <span class="time">
         {playhead.value.toFixed(2)} <small>/ {duration.value.toFixed(2)} s</small>

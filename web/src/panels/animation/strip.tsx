@@ -1,9 +1,9 @@
-import { useRef, useState } from "preact/hooks";
+import { useRef } from "preact/hooks";
 import { formatNumber, niceStep } from "../../model/axis";
 import { clamp } from "../../model/curve";
 import { deleteKeyframe, durationOf, keyframesOf, moveKeyframe, orStill, type Keyframe } from "../../model/keyframes";
 import { edit, newGesture } from "../../state/scene";
-import type { Animation, Scene } from "../../state/scene-types";
+import type { Scene } from "../../state/scene-types";
 import { startDrag } from "../../ui/drag";
 import { useWidth } from "../../ui/use-width";
 import { playhead, seek } from "./playback";
@@ -36,7 +36,6 @@ export function KeyframeStrip({
   const root = useRef<SVGSVGElement>(null);
   const whole = useWidth(frame, 800);
   const width = Math.max(50, whole - gutter - 16);
-  const [moving, setMoving] = useState<{ animation: Animation; from: number } | null>(null);
   const keyGesture = useRef("");
   const { animation } = of;
   const keyframes = keyframesOf(animation);
@@ -58,7 +57,6 @@ export function KeyframeStrip({
     onSelect(key.time);
     const gesture = newGesture("keyframe");
     // All moves begin with the animation as it was, so that keys that are passed are not pushed away.
-    setMoving({ animation, from: key.time });
     startDrag(event, {
       move: ({ dx }) => {
         if (Math.abs(dx) < 2) return;
@@ -66,7 +64,6 @@ export function KeyframeStrip({
         edit([["/animation", moveKeyframe(animation, key.time, to)]], gesture);
         onSelect(to);
       },
-      end: () => setMoving(null),
     });
   };
   const keyDown = (event: KeyboardEvent, key: Keyframe) => {
@@ -164,7 +161,7 @@ export function KeyframeStrip({
         </g>
         {keyframes.map((key, i) => (
           <path
-            key={moving ? i : key.time}
+            key={i}
             class={isSelected(key) ? "keyframe selected" : "keyframe"}
             d="M0 -7L7 0L0 7L-7 0Z"
             transform={`translate(${x(key.time)} ${ruler + lane / 2})`}

@@ -10,10 +10,23 @@ import { Button, ColorField, IconButton, Section, Select, Slider, Toggle } from 
 import { FilePicker } from "../file-picker";
 import { Icon } from "../../ui/icons";
 import { materialNames } from "../transfer/point-fields";
-import { addProxy, nameOfPath } from "../transfer/proxies";
+import { addProxy, fileProxy, freeName, nameOfPath } from "../transfer/proxies";
 
 /** More rows make the list slow; a search finds the others. */
 const mostRows = 300;
+
+/** Colors of /labels as rules that can be changed label by label: the picture stays as it is. */
+function editSingleLabels(of: Scene): void {
+  const name = freeName(of, nameOfPath(of.labels!.path));
+  const looks = new Map<number, LabelLook>();
+  for (const { value, color } of labels.peek()["labels"] ?? []) if (value !== 0) looks.set(value, { color });
+  const proxy = { ...fileProxy(name), path: of.labels!.path, lookup: "nearest" };
+  edit([
+    ["/proxies/-", proxy],
+    ["/transfer/rules", writeLooks(of.transfer.rules, name, looks)],
+    ["/labels", null],
+  ]);
+}
 
 export function LabelsPanel() {
   const of = scene.value;
@@ -43,9 +56,8 @@ export function LabelsPanel() {
           {of.labels && volumes.length === 0 && (
             <Button
               icon="labels"
-              onClick={() =>
-                addProxy(of, { name: nameOfPath(of.labels!.path), path: of.labels!.path, lookup: "nearest" })
-              }
+              title="Colors by label become rules, one label at a time"
+              onClick={() => editSingleLabels(of)}
             >
               Edit single labels
             </Button>

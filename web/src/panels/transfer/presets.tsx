@@ -40,12 +40,16 @@ function useThumbnail(name: string, of: string): string | null {
 /** Presets as pictures of this volume. */
 export function Presets() {
   const chosen = scene.value?.transfer.preset;
+  const presets = hello.value?.presets ?? [];
   return (
-    <div class="presets" role="radiogroup" aria-label="Presets">
-      {hello.value?.presets.map(({ name, summary }) => (
-        <Preset key={name} name={name} summary={summary} chosen={name === chosen} />
-      ))}
-    </div>
+    <>
+      <div class="presets" role="radiogroup" aria-label="Presets">
+        {presets.map(({ name, summary }) => (
+          <Preset key={name} name={name} summary={summary} chosen={name === chosen} />
+        ))}
+      </div>
+      <p class="note">{presets.find((preset) => preset.name === chosen)?.summary}</p>
+    </>
   );
 }
 

@@ -21,7 +21,8 @@ export function nameOfPath(path: string): string {
   return stem || "volume";
 }
 
-const base = (name: string): Proxy => ({
+/** A volume of a file that is not chosen yet. */
+export const fileProxy = (name: string): Proxy => ({
   name,
   kind: "file",
   path: "",
@@ -42,7 +43,7 @@ const kinds: { value: Proxy["kind"]; label: string }[] = [
 /** Adds a volume beside the data, for rules to read. */
 export function addProxy(of: Scene, proxy: Partial<Proxy> & { name: string }): string {
   const name = freeName(of, proxy.name);
-  edit([["/proxies/-", { ...base(name), ...proxy, name }]], newGesture("proxy"));
+  edit([["/proxies/-", { ...fileProxy(name), ...proxy, name }]], newGesture("proxy"));
   return name;
 }
 
