@@ -4,7 +4,6 @@
 #include "scene/material_library.h"
 #include "scene/presets.h"
 #include "scene/scene_schema.h"
-#include "voxlume/error.h"
 
 namespace voxlume::cli {
 
@@ -39,18 +38,6 @@ void add_schema_command(CLI::App& program, Action& action) {
     action = [markdown] {
       fmt::print("{}", *markdown ? scene_reference_markdown() : scene_schema());
       return kDone;
-    };
-  });
-}
-
-void add_view_command(CLI::App& program, Action& action) {
-  CLI::App* const command = program.add_subcommand("view", "Web viewer (not built yet)");
-  command->allow_extras();
-  command->callback([&action] {
-    action = []() -> int {
-      throw Error(
-          ErrorCode::kUnsupported, "",
-          "view is not built yet; available: render, info, convert, compare, presets, materials, schema");
     };
   });
 }

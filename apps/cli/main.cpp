@@ -18,6 +18,7 @@ Examples:
   voxlume render dicom-folder -o head.exr --camera 30,10 --aov depth,albedo --stats head.json
   voxlume render scene.json -o out.png --exposure 1 --save-scene changed.json
   voxlume info head-ct.nrrd
+  voxlume view head-ct.nrrd
   voxlume convert dicom-folder head.nrrd
   voxlume denoise frame-####.exr -o clean-####.exr
   voxlume compare a.exr b.exr --json
@@ -108,7 +109,7 @@ int run(int argc, char** argv) {
   }
   if (!action)
     return report(kBadUsage,
-                  "no command; expected one of render, info, convert, denoise, compare, presets, materials, "
+                  "no command; expected one of render, view, info, convert, denoise, compare, presets, materials, "
                   "schema (see voxlume --help)");
   return action();
 }

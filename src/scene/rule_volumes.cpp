@@ -76,7 +76,9 @@ std::vector<float> inside_labels(const ProxyDescription& proxy, const std::strin
   return labels;
 }
 
-Volume derived(const ProxyDescription& proxy, const Volume& from, const std::string& where) {
+}  // namespace
+
+Volume proxy_volume(const ProxyDescription& proxy, const Volume& from, const std::string& where) {
   switch (proxy.kind) {
     case ProxyKind::kGradient:
       return gradient_magnitude(from);
@@ -95,8 +97,6 @@ Volume derived(const ProxyDescription& proxy, const Volume& from, const std::str
     throw Error(e.code(), where + "/path", e.what());
   }
 }
-
-}  // namespace
 
 void check_whole_numbers(const GridView& grid, const std::string& where) {
   std::atomic<bool> fractions{false};
@@ -144,7 +144,7 @@ RuleVolumes::RuleVolumes(const Volume& main, const VolumeStatistics& statistics,
     const auto number = from_file ? 0 : static_cast<std::size_t>(of - volumes_.begin());
     if (proxy.kind == ProxyKind::kDistance && has_none_of(of->view.grid, proxy.labels))
       warnings_.push_back(where + "/labels: none of them occurs in \"" + proxy.of + "\"");
-    add(proxy, derived(proxy, number == 0 ? main : voxels_[number - 1], where), origin_mm, where);
+    add(proxy, proxy_volume(proxy, number == 0 ? main : voxels_[number - 1], where), origin_mm, where);
     // Where the gradient is large says nothing about which way a surface faces.
     if (proxy.kind == ProxyKind::kGradient)
       volumes_.back().view.surface_volume = volumes_[number].view.surface_volume;

@@ -1,0 +1,60 @@
+#include "server/roots.h"
+
+#include <algorithm>
+
+#include "scene/scene_file.h"
+#include "voxlume/error.h"
+
+namespace voxlume::server {
+
+namespace fs = std::filesystem;
+
+Roots::Roots(const fs::path& folder) {
+  std::error_code failed;
+  const fs::path canonical = fs::canonical(folder, failed);
+  if (failed || !fs::is_directory(canonical, failed))
+    throw Error(ErrorCode::kFileNotFound, folder.string(), "no such folder");
+  roots_.push_back(canonical);
+}
+
+void Roots::add(const fs::path& path) {
+  std::error_code failed;
+  const fs::path canonical = fs::canonical(path, failed);
+  if (!failed) roots_.push_back(canonical);
+}
+
+bool Roots::contains(const fs::path& canonical) const {
+  return std::any_of(roots_.begin(), roots_.end(), [&](const fs::path& root) {
+    const auto [end, rest] = std::mismatch(root.begin(), root.end(), canonical.begin(), canonical.end());
+    return end == root.end();
+  });
+}
+
+fs::path Roots::resolve(const std::string& text) const {
+  if (text.find('\0') != std::string::npos)
+    throw Error(ErrorCode::kBadParameter, "", "a path has no zero bytes");
+  std::error_code failed;
+  const fs::path path = folder() / text;  // an absolute text takes the folder's place
+  const fs::path canonical = fs::weakly_canonical(path, failed);
+  if (failed || !contains(canonical))
+    throw Error(ErrorCode::kBadParameter, text,
+                "is outside the folders that this viewer may read; start it with --folder to open others");
+  const fs::file_status status = fs::status(canonical, failed);
+  if (!fs::is_regular_file(status) && !fs::is_directory(status))
+    throw Error(ErrorCode::kFileNotFound, text, "no such file or folder");
+  return canonical;
+}
+
+void Roots::resolve_paths(SceneDescription& scene, const std::set<std::string>& trusted) const {
+  for_each_path(scene, [&](std::string& path) {
+    if (!trusted.contains(path)) path = resolve(path).string();
+  });
+}
+
+std::set<std::string> scene_paths(SceneDescription scene) {
+  std::set<std::string> paths;
+  for_each_path(scene, [&](std::string& path) { paths.insert(path); });
+  return paths;
+}
+
+}  // namespace voxlume::server

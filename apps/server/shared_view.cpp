@@ -1,0 +1,340 @@
+#include "server/shared_view.h"
+
+#include <boost/asio/post.hpp>
+#include <boost/beast/websocket/rfc6455.hpp>
+#include <cmath>
+
+#include "base/file_extension.h"
+#include "scene/animation.h"
+#include "scene/scene_file.h"
+#include "server/hello.h"
+#include "server/probe.h"
+#include "server/viewer.h"
+#include "voxlume/error.h"
+
+namespace voxlume::server {
+namespace {
+
+using nlohmann::json;
+
+/// A still picture follows the last edit by less than this, unless there is trouble.
+constexpr auto kStillPatience = std::chrono::seconds(20);
+
+std::shared_ptr<const std::string> shared_text(const json& message) {
+  return std::make_shared<const std::string>(text_of(message));
+}
+
+json or_null(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
+
+json refused(const std::optional<std::int64_t>& seq, const Error& error) {
+  return {{"type", "refused"},
+          {"seq", seq ? json(*seq) : json(nullptr)},
+          {"where", error.where()},
+          {"message", error.message()}};
+}
+
+}  // namespace
+
+SharedView::SharedView(boost::asio::io_context& io, Settings settings, Roots roots)
+    : io_(io),
+      settings_(std::move(settings)),
+      roots_(std::move(roots)),
+      still_timer_(io),
+      thumbnails_(io),
+      exports_(io, settings_.program, settings_.temporary / "exports",
+               [this](const Json& m) { tell_all(m); }),
+      opening_(io, settings_.live,
+               {.status = [this](const auto&... of) { set_status(of...); },
+                .opened = [this](std::shared_ptr<OpenedVolume> volume) { opened(std::move(volume)); },
+                .frame = [this](const FrameMessage& frame) { take_frame(frame); },
+                .trouble = [this](const std::string& message) { tell_trouble(message); },
+                .progress = [this](const RenderProgress& progress) { tell_progress(progress); }}) {
+  set_status("empty", "", "");
+}
+
+SharedView::~SharedView() {
+  end();
+  document_.reset();
+  volume_.reset();
+}
+
+void SharedView::open(const SceneDescription& scene) { opening_.open(scene); }
+
+void SharedView::opened(std::shared_ptr<OpenedVolume> volume) {
+  SceneDescription scene = volume->session->session().description();
+  keep_screen_size(scene);
+  // What the rules need lives as long as the session, not this object's member.
+  const Document::Rules rules{.resolve = [session = volume->session.get()](
+                                             const SceneDescription& s) { return session->resolved(s); },
+                              .check_paths =
+                                  [this](SceneDescription& s, const SceneDescription& before) {
+                                    roots_.resolve_paths(s, scene_paths(before));
+                                  }};
+  try {
+    Document document(std::move(scene), rules);
+    document_.emplace(std::move(document));
+  } catch (const Error& error) {
+    return set_status("failed", volume->name, error.what());
+  }
+  if (volume_) opening_.retire(std::move(volume_));
+  volume_ = std::move(volume);
+  *volume_->numbering = {last_frame_, revision_};
+  frame_.reset();
+  seek_s_.reset();
+  thumbnails_.forget();
+  watch_or_rest();
+  volume_->session->set_split(split_);
+  set_status("ready", volume_->name, "");
+  show();
+  tell_scene();
+}
+
+void SharedView::keep_screen_size(SceneDescription& scene) const {
+  ImageDescription& image = scene.image;
+  if (screen_size_) {
+    image.width = screen_size_->first;
+    image.height = screen_size_->second;
+  }
+  const double shrink = std::sqrt(static_cast<double>(kMostPixels) / (double(image.width) * image.height));
+  if (shrink >= 1) return;
+  image.width = std::max(1, static_cast<int>(image.width * shrink));
+  image.height = std::max(1, static_cast<int>(image.height * shrink));
+}
+
+void SharedView::show() {
+  SceneDescription scene = document_->scene();
+  if (seek_s_ && scene.animation) {
+    try {
+      scene = volume_->session->resolved(scene_at(scene, *seek_s_));
+    } catch (const Error& error) {
+      return tell_trouble(error.what());
+    }
+  }
+  revision_ = volume_->session->show(std::move(scene)) + volume_->numbering->revisions_before;
+}
+
+void SharedView::join(const std::shared_ptr<Viewer>& viewer) {
+  viewers_[viewer.get()] = viewer;
+  watch_or_rest();
+  viewer->send(shared_text(hello_message(settings_.samples, settings_.environments, roots_)));
+  viewer->send(shared_text(status_));
+  if (document_) viewer->send(shared_text(scene_message()));
+  if (!exports_.state().is_null()) viewer->send(shared_text(exports_.state()));
+  if (split_) viewer->send(shared_text({{"type", "split"}, {"at", *split_}}));
+  if (frame_) viewer->offer(*frame_);
+  tell_all({{"type", "viewers"}, {"count", viewers_.size()}});
+}
+
+void SharedView::leave(Viewer& viewer) {
+  const auto found = viewers_.find(&viewer);
+  if (found == viewers_.end()) return;
+  viewers_.erase(found);
+  watch_or_rest();
+  tell_all({{"type", "viewers"}, {"count", viewers_.size()}});
+}
+
+void SharedView::close() {
+  const auto viewers = viewers_;  // each leaves as it is closed
+  for (const auto& [key, viewer] : viewers) viewer->close(boost::beast::websocket::close_code::going_away);
+}
+
+void SharedView::end() {
+  workers_.stop();
+  workers_.join();
+  exports_.end();
+}
+
+void SharedView::receive(Viewer& viewer, std::string_view text) {
+  try {
+    std::visit([&](const auto& message) { take(viewer, message); }, parse_message(text));
+  } catch (const Error& error) {
+    viewer.send(shared_text(refused(seq_of(text), error)));
+  } catch (const std::exception& error) {
+    viewer.send(shared_text(refused(seq_of(text), Error(ErrorCode::kInternal, "", error.what()))));
+  }
+}
+
+void SharedView::take(Viewer& from, const EditMessage& message) {
+  Document& document = open_document();
+  // A gesture is one viewer's; two may call theirs alike.
+  const std::string gesture = message.gesture.empty()
+                                  ? ""
+                                  : std::to_string(reinterpret_cast<std::uintptr_t>(&from)) + message.gesture;
+  const Json sections = document.edit(message.set, gesture);
+  if (!sections.empty()) show();
+  if (sections.contains("image"))
+    screen_size_ = {document.scene().image.width, document.scene().image.height};
+  Json edited = edited_message(sections);
+  if (!sections.empty()) tell_all(edited, &from);
+  edited["seq"] = message.seq;
+  from.send(shared_text(edited));
+}
+
+void SharedView::take(Viewer&, const UndoMessage&) {
+  if (!open_document().undo()) return;
+  show();
+  tell_scene();
+}
+
+void SharedView::take(Viewer&, const RedoMessage&) {
+  if (!open_document().redo()) return;
+  show();
+  tell_scene();
+}
+
+void SharedView::take(Viewer&, const LoadMessage& message) {
+  SceneDescription scene = parse_scene(text_of(message.scene), "scene");
+  roots_.resolve_paths(scene, document_ ? scene_paths(document_->scene()) : std::set<std::string>{});
+  keep_screen_size(scene);
+  if (!document_ || !(scene.volume == document_->scene().volume)) return open(scene);
+  document_->replace(scene);
+  show();
+  tell_scene();
+}
+
+void SharedView::take(Viewer&, const OpenMessage& message) {
+  if (message.path == kPhantomPath) return open(fresh_scene(std::string(kPhantomPath)));
+  const std::filesystem::path path = roots_.resolve(message.path);
+  if (lower_extension(path) != ".json") return open(fresh_scene(path.string()));
+  SceneDescription scene = read_scene(path);
+  roots_.resolve_paths(scene);
+  keep_screen_size(scene);
+  open(scene);
+}
+
+void SharedView::take(Viewer&, const SplitMessage& message) {
+  split_ = message.at;
+  if (volume_) volume_->session->set_split(split_);
+  tell_all({{"type", "split"}, {"at", or_null(split_)}});
+}
+
+void SharedView::take(Viewer&, const SeekMessage& message) {
+  open_document();
+  if (seek_s_ == message.time_s) return;
+  seek_s_ = message.time_s;
+  show();
+}
+
+void SharedView::take(Viewer& from, const ProbeMessage& message) {
+  Json answer{{"type", "probe"}, {"id", message.id}, {"hit", false}};
+  const auto place = frame_ ? place_in_picture(*frame_->frame, message.x, message.y) : std::nullopt;
+  if (!place) return from.send(shared_text(answer));
+  work([this, volume = volume_, scene = document_->scene(), place = *place, answer,
+        viewer = from.weak_from_this()]() mutable {
+    answer["hit"] = true;
+    answer.update(data_at(volume->session->session().volume(), place));
+    answer["labels"] = labels_at(scene, *volume->sides, place);
+    boost::asio::post(io_, [viewer, text = shared_text(answer)] {
+      if (const auto to = viewer.lock()) to->send(text);
+    });
+  });
+}
+
+void SharedView::take(Viewer&, const ExportMessage& message) {
+  exports_.start(open_document().scene(), message.file);
+}
+
+void SharedView::take(Viewer&, const CancelExportMessage&) { exports_.cancel(); }
+
+void SharedView::take(Viewer& from, const ShownMessage& message) { from.shown(message.frame); }
+
+Document& SharedView::open_document() {
+  if (!document_) throw Error(ErrorCode::kBadParameter, "", "nothing is open");
+  return *document_;
+}
+
+SceneDescription SharedView::fresh_scene(const std::string& path) const {
+  SceneDescription scene = default_view_scene();
+  scene.volume.path = path;
+  keep_screen_size(scene);
+  return scene;
+}
+
+void SharedView::take_frame(const FrameMessage& frame) {
+  frame_ = frame;
+  last_frame_ = frame.number;
+  for (const auto& [key, viewer] : viewers_) viewer->offer(frame);
+  if (is_current_still(frame)) hand_out_stills(frame.frame);
+}
+
+void SharedView::watch_or_rest() {
+  if (volume_) volume_->session->set_watched(!viewers_.empty() || !awaiting_still_.empty());
+}
+
+bool SharedView::is_current_still(const FrameMessage& frame) const {
+  return !frame.frame->moving && frame.frame->revision + volume_->numbering->revisions_before == revision_;
+}
+
+void SharedView::with_still_picture(std::function<void(std::shared_ptr<const LiveFrame>)> use) {
+  open_document();
+  if (frame_ && is_current_still(*frame_)) return use(frame_->frame);
+  awaiting_still_.push_back(std::move(use));
+  if (awaiting_still_.size() > 1) return;
+  watch_or_rest();
+  still_timer_.expires_after(kStillPatience);
+  still_timer_.async_wait([this](boost::system::error_code failed) {
+    if (!failed) hand_out_stills(nullptr);
+  });
+}
+
+void SharedView::hand_out_stills(const std::shared_ptr<const LiveFrame>& frame) {
+  if (awaiting_still_.empty()) return;
+  still_timer_.cancel();
+  for (const auto& use : std::exchange(awaiting_still_, {})) use(frame);
+  watch_or_rest();
+}
+
+std::shared_ptr<const std::string> SharedView::thumbnail(const std::string& preset) {
+  const SceneDescription& scene = open_document().scene();
+  return thumbnails_.find(preset, *volume_, scene);
+}
+
+void SharedView::work(std::function<void()> job) { boost::asio::post(workers_, std::move(job)); }
+
+void SharedView::set_status(const std::string& stage, const std::string& name, const std::string& message) {
+  status_ = {{"type", "status"}, {"stage", stage}};
+  if (!name.empty()) status_["what"] = name;
+  if (!message.empty()) status_["message"] = message;
+  tell_all(status_);
+}
+
+void SharedView::tell_all(const Json& message, const Viewer* but) {
+  const auto text = shared_text(message);
+  const auto viewers = viewers_;  // one that is full leaves
+  for (const auto& [key, viewer] : viewers)
+    if (key != but) viewer->send(text);
+}
+
+void SharedView::tell_trouble(const std::string& message) {
+  tell_all({{"type", "trouble"}, {"message", message}});
+}
+
+void SharedView::tell_progress(const RenderProgress& progress) {
+  const auto text = shared_text({{"type", "progress"},
+                                 {"spp", progress.spp},
+                                 {"noise", or_null(progress.noise)},
+                                 {"remaining_s", or_null(progress.remaining_s)},
+                                 {"samples_per_s", progress.samples_per_s}});
+  const auto viewers = viewers_;
+  for (const auto& [key, viewer] : viewers) viewer->send_if_idle(text);
+}
+
+void SharedView::tell_scene() { tell_all(scene_message()); }
+
+SharedView::Json SharedView::scene_message() const {
+  return {{"type", "scene"},
+          {"revision", revision_},
+          {"scene", document_->json()},
+          {"can_undo", document_->can_undo()},
+          {"can_redo", document_->can_redo()}};
+}
+
+SharedView::Json SharedView::edited_message(const Json& sections) const {
+  return {{"type", "edited"},
+          {"revision", revision_},
+          {"sections", sections},
+          {"can_undo", document_->can_undo()},
+          {"can_redo", document_->can_redo()}};
+}
+
+}  // namespace voxlume::server

@@ -1,0 +1,127 @@
+#pragma once
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/thread_pool.hpp>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/document.h"
+#include "server/exports.h"
+#include "server/hello.h"
+#include "server/messages.h"
+#include "server/opening.h"
+#include "server/roots.h"
+#include "server/thumbnails.h"
+
+namespace voxlume::server {
+
+class Viewer;
+
+/// The one volume, scene and picture that everybody who is connected sees and changes. Everything happens on
+/// the thread of its io_context.
+class SharedView {
+ public:
+  struct Settings {
+    LiveOptions live;
+    std::vector<Sample> samples;
+    std::filesystem::path environments;  ///< a folder of environment maps beside the user's own; may be empty
+    std::filesystem::path program;       ///< what renders animations
+    std::filesystem::path temporary;     ///< a folder for what is removed at the end
+  };
+
+  SharedView(boost::asio::io_context& io, Settings settings, Roots roots);
+  ~SharedView();
+
+  const Roots& roots() const { return roots_; }
+
+  /// Opens a scene and its volume, whose paths may be read, instead of what is open.
+  void open(const SceneDescription& scene);
+
+  void join(const std::shared_ptr<Viewer>& viewer);
+  void leave(Viewer& viewer);
+  /// A text frame of a viewer. Whatever it says, nothing is thrown.
+  void receive(Viewer& viewer, std::string_view text);
+  /// Says goodbye to all viewers.
+  void close();
+  /// Ends what other processes do; after this no file is written any more.
+  void end();
+
+  std::size_t viewer_count() const { return viewers_.size(); }
+  /// Null while none is open.
+  std::shared_ptr<OpenedVolume> volume() const { return volume_; }
+  /// Null while none is open.
+  const Document* document() const { return document_ ? &*document_ : nullptr; }
+  const Exports& exports() const { return exports_; }
+  const std::filesystem::path& temporary() const { return settings_.temporary; }
+
+  /// The picture of a preset; null while it is not drawn. Throws Error, those of Thumbnails::find() and of
+  /// nothing being open.
+  std::shared_ptr<const std::string> thumbnail(const std::string& preset);
+  /// Calls `use` with the picture of the scene as it is now at its full size, as soon as there is one; with
+  /// null where that takes too long.
+  void with_still_picture(std::function<void(std::shared_ptr<const LiveFrame>)> use);
+  /// Does what takes a while on another thread.
+  void work(std::function<void()> job);
+
+ private:
+  using Json = nlohmann::json;
+
+  void take(Viewer& from, const EditMessage& message);
+  void take(Viewer& from, const UndoMessage&);
+  void take(Viewer& from, const RedoMessage&);
+  void take(Viewer& from, const LoadMessage& message);
+  void take(Viewer& from, const OpenMessage& message);
+  void take(Viewer& from, const SplitMessage& message);
+  void take(Viewer& from, const SeekMessage& message);
+  void take(Viewer& from, const ProbeMessage& message);
+  void take(Viewer& from, const ExportMessage& message);
+  void take(Viewer& from, const CancelExportMessage&);
+  void take(Viewer& from, const ShownMessage& message);
+
+  /// Throws Error while nothing is open.
+  Document& open_document();
+  /// What a volume file is opened with.
+  SceneDescription fresh_scene(const std::string& path) const;
+  void opened(std::shared_ptr<OpenedVolume> volume);
+  void take_frame(const FrameMessage& frame);
+  void watch_or_rest();
+  bool is_current_still(const FrameMessage& frame) const;
+  void hand_out_stills(const std::shared_ptr<const LiveFrame>& frame);
+  void set_status(const std::string& stage, const std::string& name, const std::string& message);
+  void show();
+  void tell_all(const Json& message, const Viewer* but = nullptr);
+  void tell_trouble(const std::string& message);
+  void tell_progress(const RenderProgress& progress);
+  void tell_scene();
+  Json scene_message() const;
+  Json edited_message(const Json& sections) const;
+  void keep_screen_size(SceneDescription& scene) const;
+
+  boost::asio::io_context& io_;
+  const Settings settings_;
+  Roots roots_;
+  std::map<const Viewer*, std::shared_ptr<Viewer>> viewers_;
+
+  std::shared_ptr<OpenedVolume> volume_;
+  std::optional<Document> document_;
+  std::uint64_t revision_ = 0;  ///< what was asked for last, as viewers know it
+  std::optional<FrameMessage> frame_;
+  std::uint64_t last_frame_ = 0;  ///< number of the newest frame, as viewers know it
+  Json status_;
+  std::optional<std::pair<int, int>> screen_size_;  ///< what a page asked for last
+  std::optional<double> split_, seek_s_;
+  std::vector<std::function<void(std::shared_ptr<const LiveFrame>)>> awaiting_still_;
+  boost::asio::steady_timer still_timer_;
+  Thumbnails thumbnails_;
+  Exports exports_;
+  Opening opening_;
+  boost::asio::thread_pool workers_{2};
+};
+
+}  // namespace voxlume::server

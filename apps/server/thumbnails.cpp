@@ -1,0 +1,57 @@
+#include "server/thumbnails.h"
+
+#include <boost/asio/post.hpp>
+
+#include "scene/presets.h"
+#include "server/picture_bytes.h"
+#include "voxlume/error.h"
+
+namespace voxlume::server {
+namespace {
+
+constexpr int kSide_px = 128;
+constexpr int kSpp = 8;
+
+SceneDescription small_scene(SceneDescription scene, const std::string& preset) {
+  scene.transfer.preset = preset;
+  scene.transfer.points.clear();
+  scene.animation.reset();
+  scene.image.width = scene.image.height = kSide_px;
+  scene.image.aovs.clear();
+  scene.render.denoise = "none";
+  return scene;
+}
+
+std::shared_ptr<const std::string> coded(const Image8& picture) {
+  if (picture.width == 0) return nullptr;
+  try {
+    return std::make_shared<const std::string>(png_bytes(picture));
+  } catch (const std::exception&) {
+    return nullptr;  // it is drawn again when asked for again
+  }
+}
+
+}  // namespace
+
+std::shared_ptr<const std::string> Thumbnails::find(const std::string& name, OpenedVolume& volume,
+                                                    const SceneDescription& scene) {
+  try {
+    find_preset(name);
+  } catch (const Error& error) {
+    throw Error(ErrorCode::kFileNotFound, "", error.message());
+  }
+  if (const auto found = drawn_->pictures.find(name); found != drawn_->pictures.end()) return found->second;
+  const SceneDescription small = volume.session->resolved(small_scene(scene, name));
+  drawn_->pictures[name] = nullptr;
+  volume.session->draw_aside(small, kSpp, [&io = io_, drawn = drawn_, name](const Image8& picture) {
+    // Called by the session's thread.
+    boost::asio::post(io, [drawn, name, png = coded(picture)] {
+      png ? void(drawn->pictures[name] = png) : void(drawn->pictures.erase(name));
+    });
+  });
+  return nullptr;
+}
+
+void Thumbnails::forget() { drawn_ = std::make_shared<Drawn>(); }
+
+}  // namespace voxlume::server
