@@ -6,6 +6,8 @@
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 
+#include <limits>
+
 #include "server/viewer.h"
 #include "voxlume/error.h"
 
@@ -49,7 +51,7 @@ HttpConnection::HttpConnection(beast::tcp_stream stream, ServerParts parts, std:
 void HttpConnection::read() {
   parser_.emplace();
   parser_->header_limit(kMostHeaderBytes);
-  parser_->body_limit(boost::none);  // bodies are refused, or limited, once the header is known
+  parser_->body_limit(std::numeric_limits<std::uint64_t>::max());  // refused or limited later
   stream_.expires_after(kIdle);
   http::async_read_header(stream_, buffer_, *parser_,
                           [self = shared_from_this()](error_code failed, std::size_t) {

@@ -26,7 +26,24 @@ std::shared_ptr<const std::string> shared_text(const json& message) {
 
 json or_null(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
 
-json refused(const std::optional<std::int64_t>& seq, const Error& error) {
+json status_json(const std::string& stage, const std::string& name, const std::string& message = "") {
+  json out{{"type", "status"}, {"stage", stage}};
+  if (!name.empty()) out["what"] = name;
+  if (!message.empty()) out["message"] = message;
+  return out;
+}
+
+/// What a page is told whose message could not be followed; `message` is absent where it could not be read.
+json failure(const std::optional<PageMessage>& message, std::string_view text, const Error& error) {
+  if (message) {
+    if (const auto* open = std::get_if<OpenMessage>(&*message))
+      return status_json("failed", file_name(open->path), error.what());
+    if (std::holds_alternative<LoadMessage>(*message)) return status_json("failed", "scene", error.what());
+    if (const auto* wish = std::get_if<ExportMessage>(&*message))
+      return {{"type", "export"}, {"state", "failed"},  {"frames_done", 0},
+              {"frames", 0},      {"file", wish->file}, {"message", error.message()}};
+  }
+  const auto seq = seq_of(text);
   return {{"type", "refused"},
           {"seq", seq ? json(*seq) : json(nullptr)},
           {"where", error.where()},
@@ -145,12 +162,14 @@ void SharedView::end() {
 }
 
 void SharedView::receive(Viewer& viewer, std::string_view text) {
+  std::optional<PageMessage> message;
   try {
-    std::visit([&](const auto& message) { take(viewer, message); }, parse_message(text));
+    message = parse_message(text);
+    std::visit([&](const auto& m) { take(viewer, m); }, *message);
   } catch (const Error& error) {
-    viewer.send(shared_text(refused(seq_of(text), error)));
+    viewer.send(shared_text(failure(message, text, error)));
   } catch (const std::exception& error) {
-    viewer.send(shared_text(refused(seq_of(text), Error(ErrorCode::kInternal, "", error.what()))));
+    viewer.send(shared_text(failure(message, text, Error(ErrorCode::kInternal, "", error.what()))));
   }
 }
 
@@ -292,10 +311,10 @@ std::shared_ptr<const std::string> SharedView::thumbnail(const std::string& pres
 void SharedView::work(std::function<void()> job) { boost::asio::post(workers_, std::move(job)); }
 
 void SharedView::set_status(const std::string& stage, const std::string& name, const std::string& message) {
-  status_ = {{"type", "status"}, {"stage", stage}};
-  if (!name.empty()) status_["what"] = name;
-  if (!message.empty()) status_["message"] = message;
-  tell_all(status_);
+  const Json status = status_json(stage, name, message);
+  // Whoever comes later sees what is open, not what could not be opened.
+  status_ = stage == "failed" && volume_ ? status_json("ready", volume_->name) : status;
+  tell_all(status);
 }
 
 void SharedView::tell_all(const Json& message, const Viewer* but) {
