@@ -13,7 +13,13 @@ function channels(hex: string): Vec3 {
 }
 
 function hexOf(srgb: Vec3): string {
-  return `#${srgb.map((c) => Math.round(clamp01(c) * 255).toString(16).padStart(2, "0")).join("")}`;
+  return `#${srgb
+    .map((c) =>
+      Math.round(clamp01(c) * 255)
+        .toString(16)
+        .padStart(2, "0"),
+    )
+    .join("")}`;
 }
 
 /** "#rrggbb" of any color of a scene; linear channels above 1 are cut off. */

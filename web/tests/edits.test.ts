@@ -3,7 +3,11 @@ import * as edits from "../src/state/edits";
 import { valueAt, withValue } from "../src/state/pointer";
 
 const start: edits.EditState<Record<string, unknown>> = {
-  confirmed: { camera: { azimuth_deg: 0, zoom: 1 }, lights: [{ intensity: 1 }, { intensity: 2 }], clip: { x_mm: [0, 1] } },
+  confirmed: {
+    camera: { azimuth_deg: 0, zoom: 1 },
+    lights: [{ intensity: 1 }, { intensity: 2 }],
+    clip: { x_mm: [0, 1] },
+  },
   pending: [],
 };
 const pending = (seq: number, pointer: string, value: unknown) => ({ seq, set: [[pointer, value]] as const });
@@ -52,7 +56,18 @@ describe("edits on their way", () => {
 
 describe("edits that become one message", () => {
   it("keep the last value of a field, and what is below an overwritten one is dropped", () => {
-    expect(edits.merged([["/camera/zoom", 1], ["/clip/x_mm", [0, 1]]], [["/camera/zoom", 2], ["/clip", {}]])).toEqual([
+    expect(
+      edits.merged(
+        [
+          ["/camera/zoom", 1],
+          ["/clip/x_mm", [0, 1]],
+        ],
+        [
+          ["/camera/zoom", 2],
+          ["/clip", {}],
+        ],
+      ),
+    ).toEqual([
       ["/camera/zoom", 2],
       ["/clip", {}],
     ]);

@@ -7,8 +7,16 @@ import type { FrameCamera } from "../src/state/protocol";
 import type { Camera } from "../src/state/scene-types";
 
 const start: Camera = {
-  projection: "perspective", azimuth_deg: 0, elevation_deg: 0, roll_deg: 0, zoom: 1, vertical_fov_deg: 30,
-  target_mm: [10, -20, 30], aperture_radius_mm: 0, background_blur_deg: 0, fit_radius_mm: 150,
+  projection: "perspective",
+  azimuth_deg: 0,
+  elevation_deg: 0,
+  roll_deg: 0,
+  zoom: 1,
+  vertical_fov_deg: 30,
+  target_mm: [10, -20, 30],
+  aperture_radius_mm: 0,
+  background_blur_deg: 0,
+  fit_radius_mm: 150,
 };
 const around = { center_mm: [0, 0, 0] as Vec3, radius_mm: 120, aspect: 1.5 };
 
@@ -66,7 +74,11 @@ describe("the camera's conventions", () => {
     expectNear(axesOf({ ...start, elevation_deg: 90 }, around).forward, [0, 0, -1]);
   });
   it("axes are orthonormal and right-handed everywhere", () => {
-    for (const [azimuth_deg, elevation_deg, roll_deg] of [[30, 20, 10], [-170, -90, 75], [0, 90, -30]] as const) {
+    for (const [azimuth_deg, elevation_deg, roll_deg] of [
+      [30, 20, 10],
+      [-170, -90, 75],
+      [0, 90, -30],
+    ] as const) {
       const { right, up, forward } = axesOf({ ...start, azimuth_deg, elevation_deg, roll_deg }, around);
       expect(dot(right, up)).toBeCloseTo(0, 12);
       expectNear(cross(right, forward), up);

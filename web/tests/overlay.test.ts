@@ -1,5 +1,12 @@
 import { describe, expect, it } from "vitest";
-import { directionField, onSphere, positionField, rectCorners, worldDirection, worldPosition } from "../src/geometry/light-place";
+import {
+  directionField,
+  onSphere,
+  positionField,
+  rectCorners,
+  worldDirection,
+  worldPosition,
+} from "../src/geometry/light-place";
 import { formatLength, niceLength } from "../src/geometry/scale-bar";
 import { cross, distance, dot, length, mix, normalize, sub, type Vec3 } from "../src/geometry/vec3";
 import type { Light } from "../src/state/scene-types";
@@ -9,8 +16,14 @@ const forward = normalize([0.3, 0.8, -0.2]);
 const right = normalize(cross(forward, [0, 0, 1]));
 const camera = { target_mm: [5, 6, 7] as Vec3, right, up: cross(right, forward), forward };
 const light: Light = {
-  kind: "rect", attached_to: "camera", color: "#ffffff", intensity: 1, position_mm: [100, 200, 300],
-  direction: [0.1, 0.2, 0.3], size_mm: [40, 20], two_sided: false,
+  kind: "rect",
+  attached_to: "camera",
+  color: "#ffffff",
+  intensity: 1,
+  position_mm: [100, 200, 300],
+  direction: [0.1, 0.2, 0.3],
+  size_mm: [40, 20],
+  two_sided: false,
 };
 
 describe("lights", () => {

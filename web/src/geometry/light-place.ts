@@ -59,9 +59,14 @@ export function rectCorners(light: Light, camera: CameraFrame): Vec3[] {
   const across = normalize(cross(normal, up));
   const upright = cross(across, normal);
   const [width, height] = light.size_mm;
-  return ([[1, 1], [-1, 1], [-1, -1], [1, -1]] as const).map(([a, b]) =>
-    add(center, add(scale(across, (a * width) / 2), scale(upright, (b * height) / 2))),
-  );
+  return (
+    [
+      [1, 1],
+      [-1, 1],
+      [-1, -1],
+      [1, -1],
+    ] as const
+  ).map(([a, b]) => add(center, add(scale(across, (a * width) / 2), scale(upright, (b * height) / 2))));
 }
 
 /** The point of the unit sphere that is seen at (x, y), x right and y up, of the side toward the eye or of the other;

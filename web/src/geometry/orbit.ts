@@ -96,9 +96,7 @@ export function byAngles(camera: Camera, around: Surroundings): Camera {
   const roll_deg = Math.atan2(dot(axes.up, unrolled.right), dot(axes.up, unrolled.up)) / kRadians;
   const { eye_mm, up: _, ...rest } = camera;
   const zoom =
-    camera.projection === "orthographic"
-      ? camera.zoom
-      : fitDistance_mm(camera, around) / length(sub(eye_mm, target));
+    camera.projection === "orthographic" ? camera.zoom : fitDistance_mm(camera, around) / length(sub(eye_mm, target));
   return { ...rest, azimuth_deg, elevation_deg, roll_deg, zoom, target_mm: target };
 }
 

@@ -20,7 +20,11 @@ export function placeOf(light: Light, target: Vec3): LightPlace {
 }
 
 /** The field that says where a light of this kind is, and its value for a place. */
-export function placed(light: Light, place: LightPlace, target: Vec3): { field: "direction" | "position_mm"; value: Vec3 } {
+export function placed(
+  light: Light,
+  place: LightPlace,
+  target: Vec3,
+): { field: "direction" | "position_mm"; value: Vec3 } {
   const direction = directionOf(place, light.attached_to);
   if (light.kind === "directional") return { field: "direction", value: direction };
   const offset = scale(direction, place.distanceMm);

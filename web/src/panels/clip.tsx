@@ -67,11 +67,26 @@ export function ClipPanel() {
           />
         ));
       })}
-      <Toggle label="What is cut still casts shadows" value={clip?.blocks_light ?? false} disabled={!clip}
-        onChange={(on) => edit([["/clip/blocks_light", on]])} />
-      <Toggle label="Handles in the picture" value={clipHandles.value} disabled={!clip} onChange={(on) => (clipHandles.value = on)} />
+      <Toggle
+        label="What is cut still casts shadows"
+        value={clip?.blocks_light ?? false}
+        disabled={!clip}
+        onChange={(on) => edit([["/clip/blocks_light", on]])}
+      />
+      <Toggle
+        label="Handles in the picture"
+        value={clipHandles.value}
+        disabled={!clip}
+        onChange={(on) => (clipHandles.value = on)}
+      />
       <div class="row-actions">
-        <Button icon="reset" disabled={!clip} onClick={() => edit([["/clip", whole(clip?.blocks_light ?? false)]], newGesture("clip"))}>Whole volume</Button>
+        <Button
+          icon="reset"
+          disabled={!clip}
+          onClick={() => edit([["/clip", whole(clip?.blocks_light ?? false)]], newGesture("clip"))}
+        >
+          Whole volume
+        </Button>
       </div>
     </Section>
   );

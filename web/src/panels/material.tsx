@@ -32,27 +32,98 @@ function ShadingFields({ of }: { of: Scene }) {
         label="Shading"
         value={m.shading}
         options={[
-          { value: "coexistence", label: "Surface and medium", hint: "Every collision is both, weighted by their shares" },
-          { value: "er", label: "One of the two by chance", hint: "As in Exposure Render: the same picture, more noise" },
+          {
+            value: "coexistence",
+            label: "Surface and medium",
+            hint: "Every collision is both, weighted by their shares",
+          },
+          {
+            value: "er",
+            label: "One of the two by chance",
+            hint: "As in Exposure Render: the same picture, more noise",
+          },
           { value: "phase", label: "Medium alone" },
           { value: "brdf", label: "Surface alone" },
           { value: "blinn-phong", label: "Blinn-Phong" },
         ]}
         onChange={(shading) => edit([["/material/shading", shading]])}
       />
-      <Slider label="Gradient factor" hint="How soon a gradient makes a surface" min={0} max={3} hardMax={1000} step={0.01} initial={0.5}
-        value={m.gradient_factor} onChange={set("gradient_factor")} />
-      <Slider label="Roughness" min={0} max={1} step={0.01} initial={0.4} disabled={blinn} value={m.roughness} onChange={set("roughness")} />
-      <Slider label="Specular" hint="Reflectance at normal incidence is 0.08 times this" min={0} max={1} step={0.01} initial={0.5} disabled={blinn}
-        value={m.specular} onChange={set("specular")} />
-      <Slider label="Anisotropy" hint="Of the medium: above 0 light goes on, below 0 back" min={-0.99} max={0.99} step={0.01} initial={0}
-        value={m.anisotropy} onChange={set("anisotropy")} />
-      <Slider label="Self-occlusion" hint="Below 1 brightens what shadows itself; 1 is physical" min={0.01} max={1} step={0.01} initial={1}
-        value={m.self_occlusion} onChange={set("self_occlusion")} />
+      <Slider
+        label="Gradient factor"
+        hint="How soon a gradient makes a surface"
+        min={0}
+        max={3}
+        hardMax={1000}
+        step={0.01}
+        initial={0.5}
+        value={m.gradient_factor}
+        onChange={set("gradient_factor")}
+      />
+      <Slider
+        label="Roughness"
+        min={0}
+        max={1}
+        step={0.01}
+        initial={0.4}
+        disabled={blinn}
+        value={m.roughness}
+        onChange={set("roughness")}
+      />
+      <Slider
+        label="Specular"
+        hint="Reflectance at normal incidence is 0.08 times this"
+        min={0}
+        max={1}
+        step={0.01}
+        initial={0.5}
+        disabled={blinn}
+        value={m.specular}
+        onChange={set("specular")}
+      />
+      <Slider
+        label="Anisotropy"
+        hint="Of the medium: above 0 light goes on, below 0 back"
+        min={-0.99}
+        max={0.99}
+        step={0.01}
+        initial={0}
+        value={m.anisotropy}
+        onChange={set("anisotropy")}
+      />
+      <Slider
+        label="Self-occlusion"
+        hint="Below 1 brightens what shadows itself; 1 is physical"
+        min={0.01}
+        max={1}
+        step={0.01}
+        initial={1}
+        value={m.self_occlusion}
+        onChange={set("self_occlusion")}
+      />
       {blinn && (
         <>
-          <Slider label="Highlight" min={0} max={10} hardMax={1000} step={0.05} initial={1} value={m.highlight} onChange={set("highlight")} />
-          <Slider label="Shininess" min={1} max={500} hardMin={0} hardMax={10000} logarithmic digits={0} initial={40} value={m.shininess} onChange={set("shininess")} />
+          <Slider
+            label="Highlight"
+            min={0}
+            max={10}
+            hardMax={1000}
+            step={0.05}
+            initial={1}
+            value={m.highlight}
+            onChange={set("highlight")}
+          />
+          <Slider
+            label="Shininess"
+            min={1}
+            max={500}
+            hardMin={0}
+            hardMax={10000}
+            logarithmic
+            digits={0}
+            initial={40}
+            value={m.shininess}
+            onChange={set("shininess")}
+          />
         </>
       )}
       <Disclosure label="More">
@@ -68,8 +139,12 @@ function ShadingFields({ of }: { of: Scene }) {
           ]}
           onChange={(form) => edit([["/material/surface_share", form]])}
         />
-        <Toggle label="Modulated by opacity" value={m.opacity_modulated} disabled={m.surface_share !== "hybrid"}
-          onChange={(on) => edit([["/material/opacity_modulated", on]])} />
+        <Toggle
+          label="Modulated by opacity"
+          value={m.opacity_modulated}
+          disabled={m.surface_share !== "hybrid"}
+          onChange={(on) => edit([["/material/opacity_modulated", on]])}
+        />
         <Select
           label="Lobes"
           value={m.lobes}
@@ -81,7 +156,11 @@ function ShadingFields({ of }: { of: Scene }) {
           onChange={(lobes) => edit([["/material/lobes", lobes]])}
         />
         {of.transfer.rules.length > 0 && (
-          <Toggle label="Smooth borders of labels" value={of.transfer.smooth_labels} onChange={(on) => edit([["/transfer/smooth_labels", on]])} />
+          <Toggle
+            label="Smooth borders of labels"
+            value={of.transfer.smooth_labels}
+            onChange={(on) => edit([["/transfer/smooth_labels", on]])}
+          />
         )}
       </Disclosure>
     </>
@@ -116,9 +195,16 @@ function NamedMaterials({ of }: { of: Scene }) {
       {of.materials.map((material, i) => (
         <MaterialCard key={material.name} of={of} material={material} index={i} />
       ))}
-      <Select label="Like" value={like} options={library.map((m) => ({ value: m.name, label: m.name, hint: m.summary }))} onChange={setLike} />
+      <Select
+        label="Like"
+        value={like}
+        options={library.map((m) => ({ value: m.name, label: m.name, hint: m.summary }))}
+        onChange={setLike}
+      />
       <div class="row-actions">
-        <Button icon="add" onClick={add}>Add a material</Button>
+        <Button icon="add" onClick={add}>
+          Add a material
+        </Button>
       </div>
     </>
   );
@@ -132,27 +218,48 @@ function MaterialCard({ of, material, index }: { of: Scene; material: NamedMater
   const given = numbers.filter(({ key }) => material[key] !== undefined);
   const open = numbers.filter(({ key }) => material[key] === undefined);
   return (
-    <div class="card">
+    <div class="panel-card">
       <header>
         <strong>{material.name}</strong>
         <small>{material.like ? `like ${material.like}` : ""}</small>
-        <IconButton icon="delete" label={used ? `${material.name} is used by rules` : `Remove ${material.name}`} disabled={used}
-          onClick={() => edit([[at, null]])} />
+        <IconButton
+          icon="delete"
+          label={used ? `${material.name} is used by rules` : `Remove ${material.name}`}
+          disabled={used}
+          onClick={() => edit([[at, null]])}
+        />
       </header>
-      <ColorField label="Color" value={color ? toHex(color) : (library?.color ?? "#cccccc")}
-        onChange={(value, gesture) => edit([[`${at}/color`, value]], gesture)} />
+      <ColorField
+        label="Color"
+        value={color ? toHex(color) : (library?.color ?? "#cccccc")}
+        onChange={(value, gesture) => edit([[`${at}/color`, value]], gesture)}
+      />
       {given.map(({ key, label, min, max }) => (
         <div class="optional" key={key}>
           <div class="optional-body">
-            <Slider label={label} min={min} max={max} step={0.01} value={material[key] as number}
-              onChange={(value, gesture) => edit([[`${at}/${key}`, value]], gesture)} />
+            <Slider
+              label={label}
+              min={min}
+              max={max}
+              step={0.01}
+              value={material[key] as number}
+              onChange={(value, gesture) => edit([[`${at}/${key}`, value]], gesture)}
+            />
           </div>
-          <IconButton icon="close" label={`${label} as ${material.like || "the scene"} has it`} onClick={() => edit([[`${at}/${key}`, null]])} />
+          <IconButton
+            icon="close"
+            label={`${label} as ${material.like || "the scene"} has it`}
+            onClick={() => edit([[`${at}/${key}`, null]])}
+          />
         </div>
       ))}
       {open.length > 0 && (
-        <Select label="Set" value="" options={[{ value: "", label: "…" }, ...open.map(({ key, label }) => ({ value: key, label }))]}
-          onChange={(key) => key && edit([[`${at}/${key}`, numbers.find((n) => n.key === key)!.initial]])} />
+        <Select
+          label="Set"
+          value=""
+          options={[{ value: "", label: "…" }, ...open.map(({ key, label }) => ({ value: key, label }))]}
+          onChange={(key) => key && edit([[`${at}/${key}`, numbers.find((n) => n.key === key)!.initial]])}
+        />
       )}
     </div>
   );

@@ -12,7 +12,11 @@ interface Entry {
 }
 
 const icons: Record<Entry["kind"], IconName> = {
-  folder: "folder", volume: "volume", scene: "layers", environment: "sun", other: "file",
+  folder: "folder",
+  volume: "volume",
+  scene: "layers",
+  environment: "sun",
+  other: "file",
 };
 
 export function formatBytes(bytes: number): string {
@@ -23,7 +27,11 @@ export function formatBytes(bytes: number): string {
 
 /** The files below the folder the viewer was started with; those of `kinds` (volumes and scenes) can be chosen, which
  * opens them unless `onChoose` is given, and folders entered. */
-export function FileBrowser({ onOpen, onChoose = openPath, kinds = ["volume", "scene"] }: {
+export function FileBrowser({
+  onOpen,
+  onChoose = openPath,
+  kinds = ["volume", "scene"],
+}: {
   onOpen?(): void;
   onChoose?(path: string): void;
   kinds?: readonly Entry["kind"][];
@@ -49,15 +57,21 @@ export function FileBrowser({ onOpen, onChoose = openPath, kinds = ["volume", "s
     onOpen?.();
   };
   const order = (entry: Entry) => (entry.kind === "folder" ? 0 : kinds.includes(entry.kind) ? 1 : 2);
-  const sorted = entries?.slice().sort((a, b) => order(a) - order(b) || a.name.localeCompare(b.name, undefined, { numeric: true }));
+  const sorted = entries
+    ?.slice()
+    .sort((a, b) => order(a) - order(b) || a.name.localeCompare(b.name, undefined, { numeric: true }));
   return (
     <div class="files">
       <nav class="crumbs" aria-label="Folder">
-        <button type="button" onClick={() => setPath("")}>{hello.value?.folder.split("/").pop() || "Files"}</button>
+        <button type="button" onClick={() => setPath("")}>
+          {hello.value?.folder.split("/").pop() || "Files"}
+        </button>
         {parts.map((part, i) => (
           <>
             <Icon name="chevron" size={12} />
-            <button type="button" onClick={() => setPath(parts.slice(0, i + 1).join("/"))}>{part}</button>
+            <button type="button" onClick={() => setPath(parts.slice(0, i + 1).join("/"))}>
+              {part}
+            </button>
           </>
         ))}
       </nav>

@@ -12,12 +12,16 @@ function Group({ title }: { title: Shortcut["group"] }) {
     <section>
       <h3>{title}</h3>
       <dl>
-        {shortcuts.filter((one) => one.group === title).map((one) => (
-          <div key={one.what}>
-            <dt><Keys keys={one.keys} /></dt>
-            <dd>{one.what}</dd>
-          </div>
-        ))}
+        {shortcuts
+          .filter((one) => one.group === title)
+          .map((one) => (
+            <div key={one.what}>
+              <dt>
+                <Keys keys={one.keys} />
+              </dt>
+              <dd>{one.what}</dd>
+            </div>
+          ))}
       </dl>
     </section>
   );

@@ -14,7 +14,12 @@ function saveBlob(blob: Blob, name: string): void {
 
 function baseName(): string {
   const path = scene.peek()?.volume.path ?? "";
-  return path.split("/").pop()?.replace(/\.(nii\.gz|[^.]+)$/, "") || "voxlume";
+  return (
+    path
+      .split("/")
+      .pop()
+      ?.replace(/\.(nii\.gz|[^.]+)$/, "") || "voxlume"
+  );
 }
 
 /** Downloads /api/PATH; tells what went wrong. */

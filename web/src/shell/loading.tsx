@@ -36,7 +36,9 @@ export function Loading() {
       <div class="card floating" role="status">
         <div class="card-title">
           <strong>Uploading {sending.name}</strong>
-          <span>{formatBytes(sending.sent)} of {formatBytes(sending.bytes)}</span>
+          <span>
+            {formatBytes(sending.sent)} of {formatBytes(sending.bytes)}
+          </span>
           <IconButton icon="close" label="Cancel the upload" onClick={sending.cancel} />
         </div>
         <Bar share={sending.bytes ? sending.sent / sending.bytes : undefined} label="Upload" />
@@ -47,7 +49,9 @@ export function Loading() {
     if (!scene.value || frame.value || link.value.kind !== "open" || stage !== "ready") return null;
     return (
       <div class="card floating" role="status">
-        <div class="card-title"><strong>Rendering the first picture</strong></div>
+        <div class="card-title">
+          <strong>Rendering the first picture</strong>
+        </div>
         <Bar label="First picture" />
       </div>
     );
@@ -55,7 +59,9 @@ export function Loading() {
   return (
     <div class="card floating" role="status">
       <div class="card-title">
-        <strong>{stage === "reading" ? "Reading" : "Preparing"} {what}</strong>
+        <strong>
+          {stage === "reading" ? "Reading" : "Preparing"} {what}
+        </strong>
         {share !== undefined && <span>{Math.round(share * 100)} %</span>}
       </div>
       <Bar share={share} label="Opening" />
@@ -78,7 +84,14 @@ export function OpenFailed() {
         <IconButton icon="close" label="Dismiss" onClick={() => (dismissed.value = now)} />
       </div>
       <p>{now.message}</p>
-      <Button onClick={() => { dismissed.value = now; openDialog.value = true; }}>Open another</Button>
+      <Button
+        onClick={() => {
+          dismissed.value = now;
+          openDialog.value = true;
+        }}
+      >
+        Open another
+      </Button>
     </div>
   );
 }
@@ -112,7 +125,10 @@ export function ConnectionBanner() {
   return (
     <div class="banner" role="alert">
       <Icon name="warning" />
-      <span>{refusal || `Not connected to the viewer. ${wait_s > 0 ? `Trying again in ${wait_s} s.` : "Trying again."} If it has ended, start voxlume view again.`}</span>
+      <span>
+        {refusal ||
+          `Not connected to the viewer. ${wait_s > 0 ? `Trying again in ${wait_s} s.` : "Trying again."} If it has ended, start voxlume view again.`}
+      </span>
       {!refusal && <Button onClick={connect}>Try now</Button>}
     </div>
   );

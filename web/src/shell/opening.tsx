@@ -75,7 +75,9 @@ export function OpeningScreen() {
     <div class="opening floating">
       <div class="opening-inner">
         <h1>Open a volume</h1>
-        <p class="lead">CT, MRI, microscopy or simulation data: NRRD, NIfTI, MetaImage, DICOM folders, TIFF, VTK, HDF5, OpenVDB.</p>
+        <p class="lead">
+          CT, MRI, microscopy or simulation data: NRRD, NIfTI, MetaImage, DICOM folders, TIFF, VTK, HDF5, OpenVDB.
+        </p>
         {stage === "failed" && (
           <div class="failed-note" role="alert">
             <Icon name="warning" />

@@ -1,4 +1,5 @@
 import { signal } from "@preact/signals";
+import { layout } from "../state/preferences";
 
 export const helpShown = signal(false);
 export const fullscreen = signal(false);
@@ -9,3 +10,7 @@ export function toggleFullscreen(): void {
 }
 
 document.addEventListener("fullscreenchange", () => (fullscreen.value = document.fullscreenElement !== null));
+
+export function toggleSlices(): void {
+  layout.value = layout.peek() === "slices" ? "picture" : "slices";
+}

@@ -1,8 +1,17 @@
 import { newGesture, redo, scene, undo } from "../state/scene";
-import { axisViews, fitView, lookFrom, orbitBy, panByPixels, rollBy, toggleProjection, zoomBy } from "../view/camera-control";
+import {
+  axisViews,
+  fitView,
+  lookFrom,
+  orbitBy,
+  panByPixels,
+  rollBy,
+  toggleProjection,
+  zoomBy,
+} from "../view/camera-control";
 import { cancelMeasuring, measuring, removeLast } from "../view/measure";
 import { toggleClip, toggleLights, toggleMeasuring, toggleSplit } from "../view/toolbar";
-import { helpShown, toggleFullscreen } from "./page-state";
+import { helpShown, toggleFullscreen, toggleSlices } from "./page-state";
 import { copyLink, savePng } from "./keep";
 import { openDialog } from "./opening";
 
@@ -14,75 +23,144 @@ export interface Shortcut {
   what: string;
   group: "Camera" | "Tools" | "Page";
   matches(event: KeyboardEvent): boolean;
-  /** May go on while the key is held: `gesture` is the same then. */
+  /** `gesture` is the same while the key is held or pressed again soon. */
   run(event: KeyboardEvent, gesture: string): void;
   /** Works only while the picture (or nothing) has the focus. */
   inView?: boolean;
 }
 
-const key = (name: string) => (event: KeyboardEvent) =>
-  event.key.toLowerCase() === name && !event.ctrlKey && !event.metaKey && !event.altKey;
+/** AltGr is how some keyboards write brackets. */
+const plain = (event: KeyboardEvent) =>
+  event.getModifierState("AltGraph") || (!event.ctrlKey && !event.metaKey && !event.altKey);
+const key = (name: string) => (event: KeyboardEvent) => event.key.toLowerCase() === name && plain(event);
 const control = (name: string, shift: boolean) => (event: KeyboardEvent) =>
   event.key.toLowerCase() === name && (event.ctrlKey || event.metaKey) && event.shiftKey === shift;
 const arrows: Record<string, readonly [number, number]> = {
-  ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1],
+  ArrowLeft: [-1, 0],
+  ArrowRight: [1, 0],
+  ArrowUp: [0, 1],
+  ArrowDown: [0, -1],
 };
-const isArrow = (event: KeyboardEvent) => event.key in arrows && !event.ctrlKey && !event.metaKey && !event.altKey;
+const isArrow = (event: KeyboardEvent) => event.key in arrows && plain(event);
 
 const kOrbit_deg = 5;
 const kPan_px = 24;
 const kZoom = 1.1;
 const kRoll_deg = 5;
+/** Presses of one key that follow this soon are one step of undo. */
+const kTogether_ms = 800;
 
 export const shortcuts: readonly Shortcut[] = [
   {
-    keys: ["Arrows"], what: "Orbit", group: "Camera", inView: true,
+    keys: ["Arrows"],
+    what: "Orbit",
+    group: "Camera",
+    inView: true,
     matches: (event) => isArrow(event) && !event.shiftKey,
     run: ({ key: name }, gesture) => orbitBy(arrows[name]![0] * kOrbit_deg, arrows[name]![1] * kOrbit_deg, gesture),
   },
   {
-    keys: ["Shift", "Arrows"], what: "Move sideways", group: "Camera", inView: true,
+    keys: ["Shift", "Arrows"],
+    what: "Move sideways",
+    group: "Camera",
+    inView: true,
     matches: (event) => isArrow(event) && event.shiftKey,
     run: ({ key: name }, gesture) => panByPixels(arrows[name]![0] * kPan_px, -arrows[name]![1] * kPan_px, gesture),
   },
   {
-    keys: ["+", "-"], what: "Zoom", group: "Camera",
+    keys: ["+", "-"],
+    what: "Zoom",
+    group: "Camera",
     matches: (event) => ["+", "=", "-"].some((name) => key(name)(event)),
     run: (event, gesture) => zoomBy(event.key === "-" ? 1 / kZoom : kZoom, gesture),
   },
   {
-    keys: ["[", "]"], what: "Roll", group: "Camera",
+    keys: ["[", "]"],
+    what: "Roll",
+    group: "Camera",
     matches: (event) => key("[")(event) || key("]")(event),
     run: (event, gesture) => rollBy(event.key === "]" ? kRoll_deg : -kRoll_deg, gesture),
   },
   {
-    keys: ["1", "...", "6"], what: "View from anterior, posterior, left, right, superior, inferior", group: "Camera",
+    keys: ["1", "...", "6"],
+    what: "View from anterior, posterior, left, right, superior, inferior",
+    group: "Camera",
     matches: (event) => axisViews.some((_, i) => key(String(i + 1))(event)),
     run: (event) => {
       const { azimuth_deg, elevation_deg } = axisViews[Number(event.key) - 1]!;
       lookFrom(azimuth_deg, elevation_deg);
     },
   },
-  { keys: ["F"], what: "Fit the volume into the view", group: "Camera", matches: (event) => key("f")(event) && !event.shiftKey, run: fitView },
-  { keys: ["O"], what: "Perspective or parallel projection", group: "Camera", matches: key("o"), run: toggleProjection },
+  {
+    keys: ["F"],
+    what: "Fit the volume into the view",
+    group: "Camera",
+    matches: (event) => key("f")(event) && !event.shiftKey,
+    run: fitView,
+  },
+  {
+    keys: ["O"],
+    what: "Perspective or parallel projection",
+    group: "Camera",
+    matches: key("o"),
+    run: toggleProjection,
+  },
   { keys: ["M"], what: "Measure distances", group: "Tools", matches: key("m"), run: toggleMeasuring },
   {
-    keys: ["Delete"], what: "Delete the last distance", group: "Tools", inView: true,
-    matches: (event) => measuring.value && (key("delete")(event) || key("backspace")(event)), run: removeLast,
+    keys: ["Delete"],
+    what: "Delete the last distance",
+    group: "Tools",
+    inView: true,
+    matches: (event) => measuring.value && (key("delete")(event) || key("backspace")(event)),
+    run: removeLast,
   },
-  { keys: ["Esc"], what: "End measuring", group: "Tools", matches: (event) => measuring.value && key("escape")(event), run: cancelMeasuring },
+  {
+    keys: ["Esc"],
+    what: "End measuring",
+    group: "Tools",
+    matches: (event) => measuring.value && key("escape")(event),
+    run: cancelMeasuring,
+  },
   { keys: ["L"], what: "Light handles", group: "Tools", matches: key("l"), run: toggleLights },
   { keys: ["C"], what: "Clip handles", group: "Tools", matches: key("c"), run: toggleClip },
-  { keys: ["D"], what: "Compare with the picture before the denoiser", group: "Tools", matches: key("d"), run: toggleSplit },
+  {
+    keys: ["D"],
+    what: "Compare with the picture before the denoiser",
+    group: "Tools",
+    matches: key("d"),
+    run: toggleSplit,
+  },
+  { keys: ["S"], what: "Slices beside the picture", group: "Tools", matches: key("s"), run: toggleSlices },
   { keys: ["Ctrl", "Z"], what: "Undo", group: "Page", matches: control("z", false), run: undo },
   {
-    keys: ["Ctrl", "Shift", "Z"], what: "Redo", group: "Page",
-    matches: (event) => control("z", true)(event) || control("y", false)(event), run: redo,
+    keys: ["Ctrl", "Shift", "Z"],
+    what: "Redo",
+    group: "Page",
+    matches: (event) => control("z", true)(event) || control("y", false)(event),
+    run: redo,
   },
-  { keys: ["Ctrl", "O"], what: "Open a volume or scene", group: "Page", matches: control("o", false), run: () => (openDialog.value = true) },
+  {
+    keys: ["Ctrl", "O"],
+    what: "Open a volume or scene",
+    group: "Page",
+    matches: control("o", false),
+    run: () => (openDialog.value = true),
+  },
   { keys: ["Ctrl", "S"], what: "Save the picture (PNG)", group: "Page", matches: control("s", false), run: savePng },
-  { keys: ["Ctrl", "Shift", "L"], what: "Copy a link to this scene", group: "Page", matches: control("l", true), run: copyLink },
-  { keys: ["Shift", "F"], what: "Full screen", group: "Page", matches: (event) => key("f")(event) && event.shiftKey, run: toggleFullscreen },
+  {
+    keys: ["Ctrl", "Shift", "L"],
+    what: "Copy a link to this scene",
+    group: "Page",
+    matches: control("l", true),
+    run: copyLink,
+  },
+  {
+    keys: ["Shift", "F"],
+    what: "Full screen",
+    group: "Page",
+    matches: (event) => key("f")(event) && event.shiftKey,
+    run: toggleFullscreen,
+  },
   { keys: ["?"], what: "This help", group: "Page", matches: key("?"), run: () => (helpShown.value = !helpShown.value) },
 ];
 
@@ -93,6 +171,7 @@ export const pointerHelp: readonly { keys: string; what: string }[] = [
   { keys: "Wheel, pinch, Ctrl + drag", what: "Zoom" },
   { keys: "Alt + drag, twist", what: "Roll" },
   { keys: "Double click, double tap", what: "Orbit around this point" },
+  { keys: "Click, beside slices", what: "Slices through this point" },
   { keys: "Wheel or Shift + drag on a light", what: "Its distance" },
 ];
 
@@ -104,7 +183,7 @@ function takesText(target: EventTarget | null): boolean {
 
 /** Listens to the page's keys; returns what ends that. */
 export function listenToKeys(): () => void {
-  let gesture = "";
+  let last = { gesture: "", shortcut: shortcuts[0], time_ms: -Infinity };
   const down = (event: KeyboardEvent) => {
     if (event.defaultPrevented || takesText(event.target) || document.querySelector("dialog[open]")) return;
     const focus = document.activeElement;
@@ -112,8 +191,9 @@ export function listenToKeys(): () => void {
     const shortcut = shortcuts.find((one) => (inView || !one.inView) && one.matches(event));
     if (!shortcut || (!scene.peek() && shortcut.group !== "Page")) return;
     event.preventDefault();
-    if (!event.repeat) gesture = newGesture("keys");
-    shortcut.run(event, gesture);
+    const goesOn = shortcut === last.shortcut && event.timeStamp - last.time_ms < kTogether_ms;
+    last = { gesture: goesOn ? last.gesture : newGesture("keys"), shortcut, time_ms: event.timeStamp };
+    shortcut.run(event, last.gesture);
   };
   addEventListener("keydown", down);
   return () => removeEventListener("keydown", down);

@@ -1,4 +1,4 @@
-import { resolution, theme, type Theme } from "../state/preferences";
+import { layout, resolution, theme, type Theme } from "../state/preferences";
 import { canRedo, canUndo, redo, scene, undo } from "../state/scene";
 import { volume, type VolumeFacts } from "../state/volume";
 import { Button, IconButton } from "../ui/controls";
@@ -7,7 +7,7 @@ import { Menu } from "../ui/menu";
 import { pickFiles } from "./files";
 import { copyLink, saveExr, savePng, saveScene } from "./keep";
 import { openDialog } from "./opening";
-import { fullscreen, helpShown, toggleFullscreen } from "./page-state";
+import { fullscreen, helpShown, toggleFullscreen, toggleSlices } from "./page-state";
 
 function facts({ size, spacing_mm, type, modality, range }: VolumeFacts): string {
   return [
@@ -23,7 +23,10 @@ function OpenVolume() {
   return (
     <span class="open-volume" title={facts(open)}>
       <span class="open-name">{open.name}</span>
-      <span class="open-size">{open.size.join(" x ")}{open.modality && ` ${open.modality}`}</span>
+      <span class="open-size">
+        {open.size.join(" x ")}
+        {open.modality && ` ${open.modality}`}
+      </span>
       {open.warnings.length > 0 && (
         <span class="open-warning" title={open.warnings.join("\n")} role="img" aria-label={open.warnings.join("; ")}>
           <Icon name="warning" />
@@ -34,7 +37,7 @@ function OpenVolume() {
 }
 
 const resolutions = [
-  { share: 1, label: "Full resolution", hint: "A pixel of the picture for each of the view" },
+  { share: 1, label: "Full", hint: "One pixel for each of the view" },
   { share: 0.75, label: "Three quarters", hint: "About twice as fast" },
   { share: 0.5, label: "Half", hint: "Four times as fast" },
 ];
@@ -49,10 +52,24 @@ export function TopBar() {
   const none = !scene.value;
   return (
     <header class="top-bar">
-      <span class="brand"><Icon name="volume" size={18} />voxlume</span>
-      <Button icon="folder" title="Open a volume or scene (Ctrl+O)" onClick={() => (openDialog.value = true)}>Open</Button>
+      <span class="brand">
+        <Icon name="volume" size={18} />
+        voxlume
+      </span>
+      <Button icon="folder" title="Open a volume or scene (Ctrl+O)" onClick={() => (openDialog.value = true)}>
+        Open
+      </Button>
       <OpenVolume />
       <span class="spring" />
+      <IconButton
+        icon="slices"
+        label="Slices beside the picture"
+        keys="S"
+        pressed={layout.value === "slices"}
+        disabled={none}
+        onClick={toggleSlices}
+      />
+      <span class="divider" />
       <IconButton icon="undo" label="Undo" keys="Ctrl+Z" disabled={none || !canUndo.value} onClick={undo} />
       <IconButton icon="redo" label="Redo" keys="Ctrl+Shift+Z" disabled={none || !canRedo.value} onClick={redo} />
       <span class="divider" />
@@ -73,21 +90,40 @@ export function TopBar() {
           { label: "Load scene", hint: "From a file of this computer", icon: "upload", run: () => pickFiles(".json") },
         ]}
       />
-      <IconButton icon="link" label="Copy a link to this scene" keys="Ctrl+Shift+L" disabled={none} onClick={copyLink} />
+      <IconButton
+        icon="link"
+        label="Copy a link to this scene"
+        keys="Ctrl+Shift+L"
+        disabled={none}
+        onClick={copyLink}
+      />
       <span class="divider" />
       <Menu
         label="Resolution and theme"
         icon="settings"
         items={[
-          ...resolutions.map(({ share, label, hint }) => ({
-            label, hint, checked: resolution.value === share, run: () => void (resolution.value = share),
+          ...resolutions.map(({ share, label, hint }, i) => ({
+            group: i === 0 ? "Resolution" : undefined,
+            label,
+            hint,
+            checked: resolution.value === share,
+            run: () => void (resolution.value = share),
           })),
-          ...themes.map(({ value, label }) => ({
-            label: `Theme: ${label.toLowerCase()}`, checked: theme.value === value, run: () => void (theme.value = value),
+          ...themes.map(({ value, label }, i) => ({
+            group: i === 0 ? "Theme" : undefined,
+            label,
+            checked: theme.value === value,
+            run: () => void (theme.value = value),
           })),
         ]}
       />
-      <IconButton icon="fullscreen" label="Full screen" keys="Shift+F" pressed={fullscreen.value} onClick={toggleFullscreen} />
+      <IconButton
+        icon="fullscreen"
+        label="Full screen"
+        keys="Shift+F"
+        pressed={fullscreen.value}
+        onClick={toggleFullscreen}
+      />
       <IconButton icon="help" label="Keys and gestures" keys="?" onClick={() => (helpShown.value = true)} />
     </header>
   );

@@ -10,7 +10,7 @@ export interface Frame {
 }
 
 const newest = signal<Frame | null>(null);
-/** The newest picture that arrived; null before the first and while nothing is open. */
+/** The newest picture that arrived; null before the first and while nothing is open. Older bitmaps are closed. */
 export const frame: ReadonlySignal<Frame | null> = newest;
 
 const newestProgress = signal<Progress | null>(null);
@@ -24,7 +24,9 @@ onFrame((header, data) => {
   decoding = decoding.then(async () => {
     const picture = await createImageBitmap(data).catch(() => null);
     if (!picture) return frameShown(header.frame);
+    const before = newest.peek();
     newest.value = { header, picture };
+    before?.picture.close();
     if (header.moving) newestProgress.value = null;
   });
 });

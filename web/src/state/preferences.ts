@@ -32,3 +32,7 @@ export const resolution = remembered<number>("resolution", 1);
 export const sidePanel = remembered<string | null>("side-panel", null);
 /** Id of the panel that is open below the picture; null: none. */
 export const bottomPanel = remembered<string | null>("bottom-panel", null);
+
+export type Layout = "picture" | "slices";
+/** The picture alone, or with the three slices through the crosshair beside it. */
+export const layout = remembered<Layout>("layout", "picture");

@@ -12,7 +12,11 @@ export function Disclosure(props: { label: string; children: ComponentChildren; 
         <Icon name="chevron" size={10} />
         <span>{props.label}</span>
       </button>
-      {open && <div id={id} class="disclosure-body">{props.children}</div>}
+      {open && (
+        <div id={id} class="disclosure-body">
+          {props.children}
+        </div>
+      )}
     </div>
   );
 }

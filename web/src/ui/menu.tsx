@@ -1,8 +1,10 @@
-import type { ComponentChildren } from "preact";
+import { Fragment, type ComponentChildren } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { Icon, type IconName } from "./icons";
 
 export interface MenuItem {
+  /** Begins a group of items under this title. */
+  group?: string;
   label: string;
   hint?: string;
   icon?: IconName;
@@ -13,7 +15,13 @@ export interface MenuItem {
 }
 
 /** A button that opens a list of things to do. Arrow keys walk it, Escape closes it. */
-export function Menu(props: { label: string; icon: IconName; items: readonly MenuItem[]; children?: ComponentChildren; disabled?: boolean }) {
+export function Menu(props: {
+  label: string;
+  icon: IconName;
+  items: readonly MenuItem[];
+  children?: ComponentChildren;
+  disabled?: boolean;
+}) {
   const [open, setOpen] = useState(false);
   const root = useRef<HTMLDivElement>(null);
   useEffect(() => {
@@ -58,23 +66,33 @@ export function Menu(props: { label: string; icon: IconName; items: readonly Men
       {open && (
         <div class="menu-list" role="menu" aria-label={props.label}>
           {props.items.map((item) => (
-            <button
-              key={item.label}
-              type="button"
-              role={item.checked === undefined ? "menuitem" : "menuitemradio"}
-              aria-checked={item.checked}
-              disabled={item.disabled}
-              onClick={() => {
-                setOpen(false);
-                item.run();
-              }}
-            >
-              {item.checked !== undefined ? (item.checked ? <Icon name="check" /> : <span class="no-icon" />) : item.icon && <Icon name={item.icon} />}
-              <span class="menu-text">
-                {item.label}
-                {item.hint && <small>{item.hint}</small>}
-              </span>
-            </button>
+            <Fragment key={item.label}>
+              {item.group && <div class="menu-group">{item.group}</div>}
+              <button
+                type="button"
+                role={item.checked === undefined ? "menuitem" : "menuitemradio"}
+                aria-checked={item.checked}
+                disabled={item.disabled}
+                onClick={() => {
+                  setOpen(false);
+                  item.run();
+                }}
+              >
+                {item.checked !== undefined ? (
+                  item.checked ? (
+                    <Icon name="check" />
+                  ) : (
+                    <span class="no-icon" />
+                  )
+                ) : (
+                  item.icon && <Icon name={item.icon} />
+                )}
+                <span class="menu-text">
+                  {item.label}
+                  {item.hint && <small>{item.hint}</small>}
+                </span>
+              </button>
+            </Fragment>
           ))}
         </div>
       )}

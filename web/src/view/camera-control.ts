@@ -1,4 +1,15 @@
-import { axesOf, between, byAngles, heightAtTarget_mm, orbited, panned, targetOf, turned, zoomed, type Surroundings } from "../geometry/orbit";
+import {
+  axesOf,
+  between,
+  byAngles,
+  heightAtTarget_mm,
+  orbited,
+  panned,
+  targetOf,
+  turned,
+  zoomed,
+  type Surroundings,
+} from "../geometry/orbit";
 import { distance, mix, type Vec3 } from "../geometry/vec3";
 import type { Assignment } from "../state/protocol";
 import type { Camera, Range, Scene } from "../state/scene-types";
@@ -13,12 +24,12 @@ export function visibleBox_mm(of: Scene): readonly [Vec3, Vec3] {
   const [low, high] = volume.value?.bounds_mm ?? [[-100, -100, -100] as const, [100, 100, 100] as const];
   if (!of.clip) return [low, high];
   const sides: Range[] = [of.clip.x_mm, of.clip.y_mm, of.clip.z_mm];
-  const cut = (axis: number): Range => [
-    Math.max(low[axis]!, sides[axis]![0]),
-    Math.min(high[axis]!, sides[axis]![1]),
-  ];
+  const cut = (axis: number): Range => [Math.max(low[axis]!, sides[axis]![0]), Math.min(high[axis]!, sides[axis]![1])];
   const [x, y, z] = [cut(0), cut(1), cut(2)];
-  return [[x[0], y[0], z[0]], [x[1], y[1], z[1]]];
+  return [
+    [x[0], y[0], z[0]],
+    [x[1], y[1], z[1]],
+  ];
 }
 
 function surroundings(of: Scene): Surroundings {

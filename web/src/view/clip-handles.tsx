@@ -15,7 +15,11 @@ const kOpen = 1e30;
 /** The box keeps at least this share of the volume's side. */
 const kThinnest = 0.01;
 const fields = ["x_mm", "y_mm", "z_mm"] as const;
-const sideNames = [["right", "left"], ["front", "back"], ["feet", "head"]] as const;
+const sideNames = [
+  ["right", "left"],
+  ["front", "back"],
+  ["feet", "head"],
+] as const;
 
 /** Moves a face; beyond the volume it is open again. */
 function setSide(axis: number, side: 0 | 1, mm: number, gesture: string): void {
@@ -24,7 +28,10 @@ function setSide(axis: number, side: 0 | 1, mm: number, gesture: string): void {
   const low = bounds[0][axis]!;
   const high = bounds[1][axis]!;
   const before: Clip = clip.peek() ?? {
-    x_mm: [-kOpen, kOpen], y_mm: [-kOpen, kOpen], z_mm: [-kOpen, kOpen], blocks_light: false,
+    x_mm: [-kOpen, kOpen],
+    y_mm: [-kOpen, kOpen],
+    z_mm: [-kOpen, kOpen],
+    blocks_light: false,
   };
   const field = fields[axis]!;
   const [from, to] = before[field];
@@ -55,9 +62,14 @@ function Face({ shown, box, axis, side }: FaceProps) {
   const seen = shown.project(middle);
   if (seen.depth_mm <= 0) return null;
   const [u, v] = [0, 1, 2].filter((other) => other !== axis) as [number, number];
-  const corners = ([[0, 0], [1, 0], [1, 1], [0, 1]] as const).map(([a, b]) =>
-    shown.project(withAxis(withAxis(middle, u, box[a][u]!), v, box[b][v]!)),
-  );
+  const corners = (
+    [
+      [0, 0],
+      [1, 0],
+      [1, 1],
+      [0, 1],
+    ] as const
+  ).map(([a, b]) => shown.project(withAxis(withAxis(middle, u, box[a][u]!), v, box[b][v]!)));
   const cut = Math.abs(clip.value?.[fields[axis]!][side] ?? kOpen) < 1e29;
   const press = (event: PointerEvent) => {
     const area = (event.currentTarget as Element).closest(".view")!.getBoundingClientRect();

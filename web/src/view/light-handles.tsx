@@ -1,7 +1,14 @@
 import { useRef } from "preact/hooks";
 import { linear, toHex } from "../color";
 import {
-  directionField, facedPoint, onSphere, positionField, rectCorners, worldDirection, worldPosition, type CameraFrame,
+  directionField,
+  facedPoint,
+  onSphere,
+  positionField,
+  rectCorners,
+  worldDirection,
+  worldPosition,
+  type CameraFrame,
 } from "../geometry/light-place";
 import { add, dot, scale, sub, type Vec3 } from "../geometry/vec3";
 import type { Light } from "../state/scene-types";
@@ -62,7 +69,8 @@ function positionedPlace(light: Light, scenery: Scenery): Place {
   const { width, height } = viewSize.value;
   const inside = (x: number, y: number) =>
     x >= kLeftEdge_px && y >= kEdge_px && x <= width - kEdge_px && y <= height - kEdge_px;
-  if (isSeen(seen.depth_mm, scenery) && inside(seen.x, seen.y)) return { x: seen.x, y: seen.y, away: false, exact: true };
+  if (isSeen(seen.depth_mm, scenery) && inside(seen.x, seen.y))
+    return { x: seen.x, y: seen.y, away: false, exact: true };
   // Outside, or behind the eye: at the view's edge, in its direction from the target.
   const offset = sub(position, camera.target_mm);
   const dx = dot(offset, camera.right) * pxPerMm;
@@ -175,7 +183,9 @@ function Handle({ index, light, scenery }: { index: number; light: Light; scener
         <circle class="reach" r={18} />
         <circle class="glow" r={11} />
         <circle class="bulb" r={7} style={{ "--light": toHex({ linear: [r, g, b] }) }} />
-        {light.kind === "directional" && <path d="M0 -15v3M0 12v3M-15 0h3M12 0h3M-10.6 -10.6l2.1 2.1M8.5 8.5l2.1 2.1M10.6 -10.6l-2.1 2.1M-8.5 8.5l-2.1 2.1" />}
+        {light.kind === "directional" && (
+          <path d="M0 -15v3M0 12v3M-15 0h3M12 0h3M-10.6 -10.6l2.1 2.1M8.5 8.5l2.1 2.1M10.6 -10.6l-2.1 2.1M-8.5 8.5l-2.1 2.1" />
+        )}
         {light.kind === "rect" && <rect x={-12} y={-12} width={24} height={24} rx={2} />}
         {light.kind === "point" && <circle class="ring" r={13} />}
         <text class="number-text">{index + 1}</text>

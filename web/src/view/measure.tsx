@@ -66,7 +66,17 @@ async function moveEnd(id: number, end: "a" | "b", x: number, y: number): Promis
 
 const formatted = (mm: number) => `${mm >= 100 ? mm.toFixed(0) : mm.toFixed(1)} mm`;
 
-function Line({ shown, a, b, children }: { shown: ViewProjection; a: Vec3; b: Vec3; children?: preact.ComponentChildren }) {
+function Line({
+  shown,
+  a,
+  b,
+  children,
+}: {
+  shown: ViewProjection;
+  a: Vec3;
+  b: Vec3;
+  children?: preact.ComponentChildren;
+}) {
   const p = shown.project(a);
   const q = shown.project(b);
   if (p.depth_mm <= 0 || q.depth_mm <= 0) return null;
@@ -129,7 +139,9 @@ export function Measurements() {
               onKeyDown={(event) => (event.key === "Enter" || event.key === "Delete") && removeMeasurement(one.id)}
             >
               <circle class="tag" r={9} />
-              <g transform="translate(-6 -6)"><Icon name="close" size={12} /></g>
+              <g transform="translate(-6 -6)">
+                <Icon name="close" size={12} />
+              </g>
             </g>
           </Line>
           <End shown={shown} of={one} end="a" />

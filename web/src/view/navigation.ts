@@ -62,7 +62,10 @@ export function attachNavigation(area: HTMLElement, handlers: NavigationHandlers
     if (touches.size === 1) return oneMoves(event, dx, dy);
     const other = [...touches].find(([id]) => id !== event.pointerId)?.[1];
     if (!other || touches.size !== 2) return;
-    const span = (a: Touch) => ({ length: Math.hypot(a.x - other.x, a.y - other.y), angle: Math.atan2(a.y - other.y, a.x - other.x) });
+    const span = (a: Touch) => ({
+      length: Math.hypot(a.x - other.x, a.y - other.y),
+      angle: Math.atan2(a.y - other.y, a.x - other.x),
+    });
     const was = span(before);
     const is = span(now);
     panByPixels(dx / 2, dy / 2, gesture);
@@ -77,8 +80,7 @@ export function attachNavigation(area: HTMLElement, handlers: NavigationHandlers
     if (!touches.delete(event.pointerId) || touches.size > 0) return;
     if (wasMultiple || travelled >= kClick_px || event.type === "pointercancel" || event.button !== 0) return;
     const { clientX: x, clientY: y, timeStamp: time_ms } = event;
-    const isDouble =
-      time_ms - lastClick.time_ms < kDoubleClick_ms && Math.hypot(x - lastClick.x, y - lastClick.y) < 12;
+    const isDouble = time_ms - lastClick.time_ms < kDoubleClick_ms && Math.hypot(x - lastClick.x, y - lastClick.y) < 12;
     lastClick = { x, y, time_ms: isDouble ? -Infinity : time_ms };
     if (isDouble) handlers.doubleClick(x, y);
     else handlers.click(x, y);

@@ -24,7 +24,9 @@ export function EdgeLabels() {
   return (
     <g class="edge-labels" aria-hidden="true">
       {places.map(([direction, x, y], i) => (
-        <text key={i} x={x} y={y}>{orientationLabel(direction).slice(0, 2)}</text>
+        <text key={i} x={x} y={y}>
+          {orientationLabel(direction).slice(0, 2)}
+        </text>
       ))}
     </g>
   );
@@ -51,19 +53,23 @@ function Face({ camera, letter, name, vector }: { camera: FrameCamera } & (typeo
   const [mx, my] = onScreen(vector);
   const [rx, ry] = onScreen(right);
   const [ux, uy] = onScreen(up);
-  const corners = [[1, 1], [-1, 1], [-1, -1], [1, -1]] as const;
+  const corners = [
+    [1, 1],
+    [-1, 1],
+    [-1, -1],
+    [1, -1],
+  ] as const;
   const views = axisViews.find((one) => one.letter === letter)!;
   const look = () => lookFrom(views.azimuth_deg, views.elevation_deg);
   return (
-    <g
-      class="cube-face"
-      role="button"
-      tabIndex={-1}
-      aria-label={`View from ${name}`}
-      onClick={look}
-    >
-      <polygon points={corners.map(([a, b]) => `${mx + a * rx + b * ux},${my + a * ry + b * uy}`).join(" ")} style={{ "--facing": facing }} />
-      <text transform={`matrix(${rx / kCube_px} ${ry / kCube_px} ${-ux / kCube_px} ${-uy / kCube_px} ${mx} ${my})`}>{letter}</text>
+    <g class="cube-face" role="button" tabIndex={-1} aria-label={`View from ${name}`} onClick={look}>
+      <polygon
+        points={corners.map(([a, b]) => `${mx + a * rx + b * ux},${my + a * ry + b * uy}`).join(" ")}
+        style={{ "--facing": facing }}
+      />
+      <text transform={`matrix(${rx / kCube_px} ${ry / kCube_px} ${-ux / kCube_px} ${-uy / kCube_px} ${mx} ${my})`}>
+        {letter}
+      </text>
     </g>
   );
 }

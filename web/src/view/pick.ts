@@ -33,6 +33,10 @@ export function pickPoint(): Promise<Probe | null> {
       },
       options,
     );
-    window.addEventListener("keydown", (event) => event.key === "Escape" && (event.stopPropagation(), end(null)), options);
+    window.addEventListener(
+      "keydown",
+      (event) => event.key === "Escape" && (event.stopPropagation(), end(null)),
+      options,
+    );
   });
 }

@@ -22,7 +22,10 @@ function set(): void {
   const image = scene.peek()?.image;
   const { width, height } = wanted.peek();
   if (!image || viewSize.peek().width <= 1 || (image.width === width && image.height === height)) return;
-  edit([["/image/width", width], ["/image/height", height]]);
+  edit([
+    ["/image/width", width],
+    ["/image/height", height],
+  ]);
 }
 
 /** Starts to follow the view; returns what ends that. */

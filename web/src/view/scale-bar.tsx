@@ -21,7 +21,9 @@ export function ScaleBar() {
       <title>{`${label} at the depth of the orbit's target`}</title>
       <path class="under" d={`M${x} ${y - 5}v5h${width}v-5`} />
       <path d={`M${x} ${y - 5}v5h${width}v-5`} />
-      <text x={x + width / 2} y={y - 7}>{label}</text>
+      <text x={x + width / 2} y={y - 7}>
+        {label}
+      </text>
     </g>
   );
 }

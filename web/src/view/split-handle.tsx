@@ -44,7 +44,9 @@ export function SplitHandle() {
         <circle class="knob" r={13} />
         <path d="M-3.5 -4l-4 4 4 4M3.5 -4l4 4 -4 4" />
       </g>
-      <text class="split-text left" x={x - 12} y={rect.y + rect.height - 40}>Traced</text>
+      <text class="split-text left" x={x - 12} y={rect.y + rect.height - 40}>
+        Traced
+      </text>
       <text class="split-text" x={x + 12} y={rect.y + rect.height - 40}>
         {denoiser === "none" ? "No denoiser chosen" : `Denoised: ${denoiser}`}
       </text>

@@ -6,7 +6,11 @@ import { pointed } from "./probing";
 
 /** The line below the picture: what is under the pointer, and how far the picture is. */
 
-const kSides = [["R", "L"], ["A", "P"], ["I", "S"]] as const;
+const kSides = [
+  ["R", "L"],
+  ["A", "P"],
+  ["I", "S"],
+] as const;
 
 /** "12.5 L" of an LPS coordinate: without a sign, with the side. */
 function coordinate(mm: number, axis: number): string {
@@ -19,10 +23,18 @@ function Pointed({ at }: { at: Probe }) {
   const digits = Number.isInteger(at.value) ? 0 : 1;
   return (
     <>
-      <span class="cell position" title="Position under the pointer: distance from the origin toward the patient's side">
+      <span
+        class="cell position"
+        title="Position under the pointer: distance from the origin toward the patient's side"
+      >
         {at.position_mm?.map(coordinate).join("  ")} mm
       </span>
-      {at.value !== undefined && <span class="cell value">{at.value.toFixed(digits)}{unit}</span>}
+      {at.value !== undefined && (
+        <span class="cell value">
+          {at.value.toFixed(digits)}
+          {unit}
+        </span>
+      )}
       {at.labels?.map((label) => (
         <span key={label.of} class="cell label" title={`Label ${label.value} of ${label.of}`}>
           <i style={{ background: labels.value[label.of]?.find((one) => one.value === label.value)?.color }} />
@@ -58,9 +70,13 @@ function Work({ header }: { header: FrameHeader }) {
   if (header.moving)
     return (
       <>
-        <span class="cell">{header.width} x {header.height}</span>
+        <span class="cell">
+          {header.width} x {header.height}
+        </span>
         <span class="cell">{header.fps.toFixed(header.fps < 10 ? 1 : 0)} fps</span>
-        <span class="cell dim" title={details}>{(header.frame_s * 1000).toFixed(0)} ms, most of it {limits[header.limit]}</span>
+        <span class="cell dim" title={details}>
+          {(header.frame_s * 1000).toFixed(0)} ms, most of it {limits[header.limit]}
+        </span>
       </>
     );
   const now = progress.value;
@@ -68,8 +84,14 @@ function Work({ header }: { header: FrameHeader }) {
   const noise = header.done ? header.noise : (now?.noise ?? header.noise);
   return (
     <>
-      <span class="cell" title={details}>{samples(spp)} spp</span>
-      {noise !== null && <span class="cell" title="Mean of standard error / luminance">noise {(noise * 100).toFixed(1)} %</span>}
+      <span class="cell" title={details}>
+        {samples(spp)} spp
+      </span>
+      {noise !== null && (
+        <span class="cell" title="Mean of standard error / luminance">
+          noise {(noise * 100).toFixed(1)} %
+        </span>
+      )}
       <span class="cell dim">
         {header.done ? "done" : now?.remaining_s != null ? `${duration(now.remaining_s)} left` : limits[header.limit]}
       </span>
@@ -82,7 +104,13 @@ export function StatusBar() {
   const at = pointed.value;
   return (
     <footer class="status-bar">
-      <div class="pointed">{at ? <Pointed at={at} /> : <span class="cell dim">{volume.value ? "Point at the volume to read its values" : ""}</span>}</div>
+      <div class="pointed">
+        {at ? (
+          <Pointed at={at} />
+        ) : (
+          <span class="cell dim">{volume.value ? "Point at the volume to read its values" : ""}</span>
+        )}
+      </div>
       <div class="work" aria-label="Progress of the picture">
         {viewers.value > 1 && <span class="cell dim">{viewers.value} viewers</span>}
         {header && <Work header={header} />}

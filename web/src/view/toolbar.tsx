@@ -18,15 +18,29 @@ export function Toolbar() {
   const orthographic = scene.value?.camera.projection === "orthographic";
   return (
     <div class="tools floating" role="toolbar" aria-label="View tools" aria-orientation="vertical">
-      <IconButton icon="measure" label="Measure distances" keys="M" pressed={measuring.value} onClick={toggleMeasuring} />
+      <IconButton
+        icon="measure"
+        label="Measure distances"
+        keys="M"
+        pressed={measuring.value}
+        onClick={toggleMeasuring}
+      />
       <IconButton icon="light" label="Light handles" keys="L" pressed={lightHandles.value} onClick={toggleLights} />
       <IconButton icon="clip" label="Clip handles" keys="C" pressed={clipHandles.value} onClick={toggleClip} />
-      <IconButton icon="split" label="Compare with the picture before the denoiser" keys="D" pressed={split.value !== null} onClick={toggleSplit} />
+      <IconButton
+        icon="split"
+        label="Compare with the picture before the denoiser"
+        keys="D"
+        pressed={split.value !== null}
+        onClick={toggleSplit}
+      />
       <hr />
       <IconButton icon="fit" label="Fit the volume into the view" keys="F" onClick={fitView} />
       <IconButton
         icon={orthographic ? "parallel" : "perspective"}
-        label={orthographic ? "Parallel projection; change to perspective" : "Perspective; change to parallel projection"}
+        label={
+          orthographic ? "Parallel projection; change to perspective" : "Perspective; change to parallel projection"
+        }
         keys="O"
         onClick={toggleProjection}
       />

@@ -1,4 +1,6 @@
 import { useEffect, useRef } from "preact/hooks";
+import { setCrosshair } from "../state/crosshair";
+import { layout } from "../state/preferences";
 import { scene } from "../state/scene";
 import { setTarget } from "./camera-control";
 import { ClipHandles } from "./clip-handles";
@@ -28,9 +30,13 @@ export function View() {
     });
     observer.observe(element);
     const detach = attachNavigation(element, {
-      click: (x, y) => {
+      click: async (x, y) => {
         const at = inArea(x, y);
-        if (measuring.peek()) void setEnd(at.x, at.y);
+        if (measuring.peek()) return void setEnd(at.x, at.y);
+        pointAt(at);
+        if (layout.peek() !== "slices") return;
+        const place = (await probeAt(at.x, at.y))?.position_mm;
+        if (place) setCrosshair(place);
       },
       doubleClick: async (x, y) => {
         const at = inArea(x, y);
@@ -57,8 +63,13 @@ export function View() {
   }, []);
   const ready = scene.value && view.value;
   return (
-    <div ref={area} class={measuring.value ? "view measuring" : "view"} tabIndex={0} role="application"
-      aria-label="View of the volume. Arrow keys orbit, plus and minus zoom, question mark lists all keys.">
+    <div
+      ref={area}
+      class={measuring.value ? "view measuring" : "view"}
+      tabIndex={0}
+      role="application"
+      aria-label="View of the volume. Arrow keys orbit, plus and minus zoom, question mark lists all keys."
+    >
       <Picture />
       {ready && (
         <>
@@ -68,7 +79,9 @@ export function View() {
             <SplitHandle />
             <ClipHandles />
             <LightHandles />
-            {overlays.value.map(({ id, component: Overlay }) => <Overlay key={id} />)}
+            {overlays.value.map(({ id, component: Overlay }) => (
+              <Overlay key={id} />
+            ))}
             <Measurements />
           </svg>
           <Toolbar />

@@ -1,6 +1,14 @@
 import { describe, expect, it } from "vitest";
 import { distance } from "../../src/geometry/vec3";
-import { flashFactor, flashLowest, flashTrack, orbited, orbitTrack, placed, placeOf } from "../../src/model/light-motion";
+import {
+  flashFactor,
+  flashLowest,
+  flashTrack,
+  orbited,
+  orbitTrack,
+  placed,
+  placeOf,
+} from "../../src/model/light-motion";
 import type { Light, Vec3 } from "../../src/state/scene-types";
 
 const target: Vec3 = [10, 20, 30];
@@ -13,7 +21,13 @@ const rect: Light = {
   size_mm: [100, 100],
   two_sided: false,
 };
-const sun: Light = { ...rect, kind: "directional", position_mm: undefined, direction: [0, 0, 2], attached_to: "camera" };
+const sun: Light = {
+  ...rect,
+  kind: "directional",
+  position_mm: undefined,
+  direction: [0, 0, 2],
+  attached_to: "camera",
+};
 
 describe("places of lights", () => {
   it("are angles and a distance from the target", () => {

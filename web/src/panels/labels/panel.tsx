@@ -26,13 +26,27 @@ export function LabelsPanel() {
     <>
       <div class="panel-top">
         {volumes.length > 1 && (
-          <Select label="Labels of" value={name!} options={volumes.map((v) => ({ value: v.name, label: v.name }))} onChange={setChosen} />
+          <Select
+            label="Labels of"
+            value={name!}
+            options={volumes.map((v) => ({ value: v.name, label: v.name }))}
+            onChange={setChosen}
+          />
         )}
-        {volumes.length === 0 && <p class="note">A label volume names the parts of the picture: an atlas, or a segmentation of this volume.</p>}
+        {volumes.length === 0 && (
+          <p class="note">A label volume names the parts of the picture: an atlas, or a segmentation of this volume.</p>
+        )}
         <div class="row-actions">
-          <Button icon="add" disabled={of.proxies.length >= mostProxies} onClick={() => setPicking(true)}>Label volume from a file</Button>
+          <Button icon="add" disabled={of.proxies.length >= mostProxies} onClick={() => setPicking(true)}>
+            Label volume from a file
+          </Button>
           {of.labels && volumes.length === 0 && (
-            <Button icon="labels" onClick={() => addProxy(of, { name: nameOfPath(of.labels!.path), path: of.labels!.path, lookup: "nearest" })}>
+            <Button
+              icon="labels"
+              onClick={() =>
+                addProxy(of, { name: nameOfPath(of.labels!.path), path: of.labels!.path, lookup: "nearest" })
+              }
+            >
               Edit single labels
             </Button>
           )}
@@ -41,16 +55,26 @@ export function LabelsPanel() {
       {name && <LabelList key={name} of={of} name={name} />}
       {of.labels && (
         <Section title="Colors of all labels">
-          <Slider label="Strength" hint="How much of a label's color replaces the curve's" min={0} max={1} step={0.01} value={of.labels.strength}
-            onChange={(value, gesture) => edit([["/labels/strength", value]], gesture)} />
+          <Slider
+            label="Strength"
+            hint="How much of a label's color replaces the curve's"
+            min={0}
+            max={1}
+            step={0.01}
+            value={of.labels.strength}
+            onChange={(value, gesture) => edit([["/labels/strength", value]], gesture)}
+          />
         </Section>
       )}
       {picking && (
-        <FilePicker title="Add a label volume" onClose={() => setPicking(false)}
+        <FilePicker
+          title="Add a label volume"
+          onClose={() => setPicking(false)}
           onPick={(path) => {
             setPicking(false);
             setChosen(addProxy(of, { name: nameOfPath(path), path, lookup: "nearest" }));
-          }} />
+          }}
+        />
       )}
     </>
   );
@@ -69,13 +93,22 @@ function LabelList({ of, name }: { of: Scene; name: string }) {
   const looks = readLooks(rules, name);
   const listed = labels.value[name] ?? [];
   // What no label marks is a part like any other: hiding it leaves the labels.
-  const all = listed.some((label) => label.value === 0) ? listed : [{ value: 0, name: "", color: "#808080" }, ...listed];
-  const found = all.filter((label) => matches({ ...label, name: label.name || (label.value === 0 ? "Unlabelled" : "") }, search));
+  const all = listed.some((label) => label.value === 0)
+    ? listed
+    : [{ value: 0, name: "", color: "#808080" }, ...listed];
+  const found = all.filter((label) =>
+    matches({ ...label, name: label.name || (label.value === 0 ? "Unlabelled" : "") }, search),
+  );
   const write = (next: ReadonlyMap<number, LabelLook>, gesture = newGesture("labels")) =>
     edit([["/transfer/rules", writeLooks(rules, name, next)]], gesture);
   const change = (values: readonly number[], by: (label: LabelName) => Partial<LabelLook>, gesture?: string) => {
     const wanted = new Set(values);
-    write(all.filter((label) => wanted.has(label.value)).reduce((map, label) => withLook(map, label.value, by(label)), looks as Map<number, LabelLook>), gesture);
+    write(
+      all
+        .filter((label) => wanted.has(label.value))
+        .reduce((map, label) => withLook(map, label.value, by(label)), looks as Map<number, LabelLook>),
+      gesture,
+    );
   };
   const values = found.map((label) => label.value);
   const visible = found.filter((label) => !looks.get(label.value)?.hidden).length;
@@ -83,24 +116,70 @@ function LabelList({ of, name }: { of: Scene; name: string }) {
     <Section title={`${name}: ${listed.length} labels`}>
       {merge !== "priority" && rules.length > 0 && (
         <p class="note warning">
-          Rules are merged as {merge === "product" ? "a product" : "the densest"}; labels are hidden and made opaque by priority only.{" "}
-          <button type="button" class="link" onClick={() => edit([["/transfer/merge", "priority"]])}>Merge by priority</button>
+          Rules are merged as {merge === "product" ? "a product" : "the densest"}; labels are hidden and made opaque by
+          priority only.{" "}
+          <button type="button" class="link" onClick={() => edit([["/transfer/merge", "priority"]])}>
+            Merge by priority
+          </button>
         </p>
       )}
-      {hasOtherRules(rules, name) && <p class="note">Other rules use {name}, too: the transfer function panel has them.</p>}
-      <input class="text" type="search" placeholder="Search" aria-label={`Search labels of ${name}`} value={search}
-        onInput={(event) => setSearch(event.currentTarget.value)} onKeyDown={(event) => event.stopPropagation()} />
+      {hasOtherRules(rules, name) && (
+        <p class="note">Other rules use {name}, too: the transfer function panel has them.</p>
+      )}
+      <input
+        class="text"
+        type="search"
+        placeholder="Search"
+        aria-label={`Search labels of ${name}`}
+        value={search}
+        onInput={(event) => setSearch(event.currentTarget.value)}
+        onKeyDown={(event) => event.stopPropagation()}
+      />
       <div class="row-actions compact">
-        <Button onClick={() => change(values, () => ({ hidden: false }))} title="Shows all that are listed">Show</Button>
-        <Button onClick={() => change(values, () => ({ hidden: true }))} title="Hides all that are listed">Hide</Button>
-        <Button title="Hides all but those listed" disabled={found.length === all.length}
-          onClick={() => write(all.reduce((map, label) => withLook(map, label.value, { hidden: !values.includes(label.value) }), looks as Map<number, LabelLook>))}>
+        <Button onClick={() => change(values, () => ({ hidden: false }))} title="Shows all that are listed">
+          Show
+        </Button>
+        <Button onClick={() => change(values, () => ({ hidden: true }))} title="Hides all that are listed">
+          Hide
+        </Button>
+        <Button
+          title="Hides all but those listed"
+          disabled={found.length === all.length}
+          onClick={() =>
+            write(
+              all.reduce(
+                (map, label) => withLook(map, label.value, { hidden: !values.includes(label.value) }),
+                looks as Map<number, LabelLook>,
+              ),
+            )
+          }
+        >
           Only these
         </Button>
-        <Button title="Gives all that are listed the file's colors" onClick={() => change(values.filter((v) => v !== 0), (label) => ({ color: label.color }))}>Color</Button>
-        <Button title="Takes hiding, materials and colors from all that are listed" onClick={() => change(values, () => ({ hidden: undefined, material: undefined, color: undefined, opacity: undefined }))}>Reset</Button>
+        <Button
+          title="Gives all that are listed the file's colors"
+          onClick={() =>
+            change(
+              values.filter((v) => v !== 0),
+              (label) => ({ color: label.color }),
+            )
+          }
+        >
+          Color
+        </Button>
+        <Button
+          title="Takes hiding, materials and colors from all that are listed"
+          onClick={() =>
+            change(values, () => ({ hidden: undefined, material: undefined, color: undefined, opacity: undefined }))
+          }
+        >
+          Reset
+        </Button>
       </div>
-      <p class="note" aria-live="polite">{search ? `${found.length} found, ` : ""}{visible} of {found.length} visible</p>
+      <p class="note" aria-live="polite">
+        {search ? `${found.length} found, ` : ""}
+        {visible} of {found.length} visible
+      </p>
       <ul class="label-list">
         {found.slice(0, mostRows).map((label) => (
           <LabelRow
@@ -135,10 +214,20 @@ function LabelRow(props: {
   return (
     <li class={look.hidden ? "hidden" : ""}>
       <div class="label-row">
-        <IconButton icon={look.hidden ? "eye-off" : "eye"} label={look.hidden ? `Show ${title}` : `Hide ${title}`} pressed={!look.hidden}
-          onClick={() => onChange({ hidden: !look.hidden })} />
+        <IconButton
+          icon={look.hidden ? "eye-off" : "eye"}
+          label={look.hidden ? `Show ${title}` : `Hide ${title}`}
+          pressed={!look.hidden}
+          onClick={() => onChange({ hidden: !look.hidden })}
+        />
         <span class={plain ? "swatch plain" : "swatch"} style={{ "--color": shown }} />
-        <button type="button" class="name" aria-expanded={props.open} onClick={props.onOpen} title={`${title} (${label.value})`}>
+        <button
+          type="button"
+          class="name"
+          aria-expanded={props.open}
+          onClick={props.onOpen}
+          title={`${title} (${label.value})`}
+        >
           <span>{title}</span>
           <small>{look.material ?? ""}</small>
           <small class="number-of">{label.value}</small>
@@ -147,15 +236,39 @@ function LabelRow(props: {
       </div>
       {props.open && (
         <div class="label-look">
-          <Select label="Material" value={look.material ?? asItIs}
-            options={[{ value: asItIs, label: "As the curve has it" }, ...materialNames().map((name) => ({ value: name, label: name }))]}
-            onChange={(name) => onChange({ material: name || undefined })} />
-          <Toggle label="Color of its own" value={look.color !== undefined} onChange={(on) => onChange({ color: on ? shown : undefined })} />
-          {look.color !== undefined && <ColorField label="Color" value={shown} onChange={(color, gesture) => onChange({ color }, gesture)} />}
-          <Toggle label="Opacity of its own" hint="As opaque as this, whatever the data" value={look.opacity !== undefined}
-            onChange={(on) => onChange({ opacity: on ? 0.95 : undefined, ...(on && plain ? { color: shown } : {}) })} />
+          <Select
+            label="Material"
+            value={look.material ?? asItIs}
+            options={[
+              { value: asItIs, label: "As the curve has it" },
+              ...materialNames().map((name) => ({ value: name, label: name })),
+            ]}
+            onChange={(name) => onChange({ material: name || undefined })}
+          />
+          <Toggle
+            label="Color of its own"
+            value={look.color !== undefined}
+            onChange={(on) => onChange({ color: on ? shown : undefined })}
+          />
+          {look.color !== undefined && (
+            <ColorField label="Color" value={shown} onChange={(color, gesture) => onChange({ color }, gesture)} />
+          )}
+          <Toggle
+            label="Opacity of its own"
+            hint="As opaque as this, whatever the data"
+            value={look.opacity !== undefined}
+            onChange={(on) => onChange({ opacity: on ? 0.95 : undefined, ...(on && plain ? { color: shown } : {}) })}
+          />
           {look.opacity !== undefined && (
-            <Slider label="Opacity" min={0.001} max={1} hardMin={1e-6} digits={3} value={look.opacity} onChange={(opacity, gesture) => onChange({ opacity }, gesture)} />
+            <Slider
+              label="Opacity"
+              min={0.001}
+              max={1}
+              hardMin={1e-6}
+              digits={3}
+              value={look.opacity}
+              onChange={(opacity, gesture) => onChange({ opacity }, gesture)}
+            />
           )}
         </div>
       )}

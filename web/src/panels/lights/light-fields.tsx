@@ -40,7 +40,11 @@ export function LightFields({ light, index }: { light: Light; index: number }) {
   };
   return (
     <>
-      <ColorField label="Color" value={hex} onChange={(value, gesture) => edit([[`${at}/color`, joinScale(value, beyond)]], gesture)} />
+      <ColorField
+        label="Color"
+        value={hex}
+        onChange={(value, gesture) => edit([[`${at}/color`, joinScale(value, beyond)]], gesture)}
+      />
       <Slider
         label="Intensity"
         {...range}
@@ -62,7 +66,11 @@ export function LightFields({ light, index }: { light: Light; index: number }) {
       />
       <Slider
         label="Azimuth"
-        hint={light.attached_to === "world" ? "0 is in front of the patient, 90 at the patient's left" : "0 is at the eye, 90 to the right"}
+        hint={
+          light.attached_to === "world"
+            ? "0 is in front of the patient, 90 at the patient's left"
+            : "0 is at the eye, 90 to the right"
+        }
         unit="°"
         min={-180}
         max={180}

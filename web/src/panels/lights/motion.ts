@@ -51,7 +51,7 @@ export async function startMotion(motion: Motion, light: number): Promise<void> 
     }
     const camera = scene.peek()?.camera;
     await shownAfter(since);
-    for (let seen = camera; running.peek() === self && scene.peek()?.camera !== seen; ) {
+    for (let seen = camera; running.peek() === self && scene.peek()?.camera !== seen;) {
       seen = scene.peek()?.camera;
       await wait(kRest_ms);
       before = performance.now();

@@ -70,7 +70,8 @@ export function CurveEditor(props: CurveEditorProps) {
   const rule: Rule = { kind, volume: "", points: [...points], along: "", column_form: "curve", columns: [] };
   const extinction = usesExtinction(points);
   const shownOpacity = (p: TransferPoint) =>
-    pointOpacity(p, referenceMm) ?? (points.some((q) => pointOpacity(q, referenceMm) !== undefined) ? opacityAt(points, p.value, referenceMm) : 0.5);
+    pointOpacity(p, referenceMm) ??
+    (points.some((q) => pointOpacity(q, referenceMm) !== undefined) ? opacityAt(points, p.value, referenceMm) : 0.5);
 
   const change = (next: TransferPoint[], gesture: string) => props.onChange(next, gesture);
 
@@ -209,7 +210,14 @@ export function CurveEditor(props: CurveEditorProps) {
           const fill = p.color === undefined && p.material ? props.materialColor(p.material) : pointColor(points, p);
           return (
             <g key={i} class={i === selected ? "point selected" : "point"}>
-              <circle class="hit" cx={x(p.value)} cy={y(opacity)} r={11} onPointerDown={(e) => dragPoint(e, i)} onDblClick={(e) => e.stopPropagation()} />
+              <circle
+                class="hit"
+                cx={x(p.value)}
+                cy={y(opacity)}
+                r={11}
+                onPointerDown={(e) => dragPoint(e, i)}
+                onDblClick={(e) => e.stopPropagation()}
+              />
               <circle
                 class="dot"
                 cx={x(p.value)}
@@ -262,13 +270,15 @@ function colorStops(rule: Rule, span: Span, materialColor: (name: string) => str
 
 /** Round opacities across, for the eye to hold on to. */
 function Grid(props: { span: Span; width: number; y(opacity: number): number; fine: boolean }) {
-  const levels = props.fine ? [0.001, 0.01, 0.1, 1] : [0.25, 0.5, 0.75, 1];
+  const levels = props.fine ? [0.01, 0.1, 0.5, 1] : [0.25, 0.5, 0.75, 1];
   return (
     <g class="grid">
       {levels.map((level) => (
         <g key={level}>
           <line x1={0} x2={props.width} y1={props.y(level)} y2={props.y(level)} />
-          <text x={-4} y={props.y(level) + (level === 1 ? 9 : -2)}>{level}</text>
+          <text x={-4} y={props.y(level) + (level === 1 ? 9 : -2)}>
+            {level}
+          </text>
         </g>
       ))}
     </g>
@@ -284,10 +294,16 @@ function Axis({ span, width, unit }: { span: Span; width: number; unit: string }
         const at = toPixel(span, width, value);
         if (at < 12 || at > width - 12 - (unit ? 16 : 0)) return null;
         return (
-          <text key={value} x={at} y={height - 6} text-anchor="middle">{formatNumber(value, resolution)}</text>
+          <text key={value} x={at} y={height - 6} text-anchor="middle">
+            {formatNumber(value, resolution)}
+          </text>
         );
       })}
-      {unit && <text x={width - 2} y={height - 6} text-anchor="end" class="unit">{unit}</text>}
+      {unit && (
+        <text x={width - 2} y={height - 6} text-anchor="end" class="unit">
+          {unit}
+        </text>
+      )}
     </g>
   );
 }
@@ -324,7 +340,9 @@ function CurveShape(props: {
     const epsilon = (span.hi - span.lo) * 1e-6;
     const dense = points.some((p) => pointOpacity(p, referenceMm) !== undefined);
     const all = [...places, ...seen.flatMap((v) => [v - epsilon, v])].sort((a, b) => a - b);
-    line = "M" + all.map((v) => `${x(v).toFixed(1)} ${y(dense ? opacityAt(points, v, referenceMm) : 0.5).toFixed(1)}`).join("L");
+    line =
+      "M" +
+      all.map((v) => `${x(v).toFixed(1)} ${y(dense ? opacityAt(points, v, referenceMm) : 0.5).toFixed(1)}`).join("L");
   }
   const start = isStepKind(rule.kind) ? x(points[0]!.value) : 0;
   return (

@@ -34,7 +34,10 @@ function domainOf(name: string, facts: VolumeFacts | null, proxies: readonly Pro
   const proxy = proxies.find((one) => one.name === name);
   if (proxy?.kind === "smoothed") return { ...data, unit, discrete: false };
   if (proxy?.kind === "distance") {
-    const [lower, upper] = facts?.bounds_mm ?? [[0, 0, 0], [100, 100, 100]];
+    const [lower, upper] = facts?.bounds_mm ?? [
+      [0, 0, 0],
+      [100, 100, 100],
+    ];
     const quarter = Math.max(...upper.map((x, i) => x - lower[i]!)) / 4;
     return { span: { lo: -quarter, hi: quarter }, histogram: null, unit: "mm", discrete: false };
   }
@@ -62,4 +65,12 @@ export function useDomain(name: string): Domain {
   const domain = domainOf(name, facts, proxies);
   if (!key || fetched?.key !== key) return domain;
   return { ...domain, span: widened(fetched.histogram), histogram: fetched.histogram };
+}
+
+/** The values of a volume, asked of the server where it has to be. */
+export async function spanOf(name: string): Promise<Span> {
+  const proxies = scene.peek()?.proxies ?? [];
+  const kind = proxies.find((one) => one.name === name)?.kind;
+  if (kind !== "file" && kind !== "gradient") return domainOf(name, volume.peek(), proxies).span;
+  return fetchHistogram(name).then(widened, () => ({ lo: 0, hi: 1 }));
 }

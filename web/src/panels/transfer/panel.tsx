@@ -58,7 +58,9 @@ export function TransferPanel() {
 }
 
 function FunctionEditor({ of, index }: { of: Scene; index: number }) {
-  const [column, setColumn] = useState(0);
+  // Until one is chosen the last: the first often is where nothing is.
+  const [chosenColumn, setColumn] = useState<number | null>(null);
+  const column = chosenColumn ?? (of.transfer.rules[index]?.columns.length ?? 1) - 1;
   const [selected, setSelected] = useState(0);
   const [zoomed, setZoomed] = useState<Span | null>(null);
   const [fine, setFine] = useState<boolean | null>(null);
@@ -68,7 +70,8 @@ function FunctionEditor({ of, index }: { of: Scene; index: number }) {
   const kind = rule?.kind ?? "cctf";
   const span = zoomed ?? domain.span;
   const referenceMm = of.transfer.reference_length_mm ?? 1;
-  const thin = points.length > 0 && points.every((p) => (pointOpacity(p, referenceMm) ?? 0) < 0.1);
+  const densest = points.reduce((most, p) => Math.max(most, pointOpacity(p, referenceMm) ?? 0), 0);
+  const thin = densest > 0 && densest < 0.1;
   const isFine = fine ?? thin;
   const chosen = Math.min(selected, points.length - 1);
   const change = (next: TransferPoint[], gesture: string) => edit([[pointer, next]], gesture);
@@ -87,7 +90,12 @@ function FunctionEditor({ of, index }: { of: Scene; index: number }) {
       <IconButton icon="enlarge" label="Show low opacities larger" pressed={isFine} onClick={() => setFine(!isFine)} />
       <IconButton icon="fit" label="Show all values" disabled={!zoomed} onClick={() => setZoomed(null)} />
       <IconButton icon="add" label="Add a point" onClick={addInMiddle} />
-      <IconButton icon="delete" label="Delete the chosen point" disabled={chosen < 0 || (rule !== null && points.length === 1)} onClick={remove} />
+      <IconButton
+        icon="delete"
+        label="Delete the chosen point"
+        disabled={chosen < 0 || (rule !== null && points.length === 1)}
+        onClick={remove}
+      />
     </>
   );
   return (

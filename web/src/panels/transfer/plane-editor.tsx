@@ -43,13 +43,10 @@ export function PlaneEditor(props: {
   };
   const gap = discrete ? 1 : (limits.hi - limits.lo) / 2000;
 
-  useEffect(() => drawMap(canvas.current!, rule, span, (row) => atPixel(row), props.materialColor), [
-    rule,
-    span,
-    limits.lo,
-    limits.hi,
-    width,
-  ]);
+  useEffect(
+    () => drawMap(canvas.current!, rule, span, (row) => atPixel(row), props.materialColor),
+    [rule, span, limits.lo, limits.hi, width],
+  );
 
   const add = (event: MouseEvent) => {
     const pixel = event.clientY - frame.current!.getBoundingClientRect().top;
@@ -68,7 +65,10 @@ export function PlaneEditor(props: {
   const keyDown = (event: KeyboardEvent, index: number) => {
     const upward = { ArrowUp: 1, ArrowDown: -1 }[event.key];
     if (event.key === "Delete" && columns.length > 1) {
-      props.onChange(columns.filter((_, i) => i !== index), newGesture("delete-column"));
+      props.onChange(
+        columns.filter((_, i) => i !== index),
+        newGesture("delete-column"),
+      );
       props.onSelect(Math.max(0, index - 1));
     } else if (upward) {
       if (!event.repeat) keyGesture.current = newGesture("column-key");
@@ -85,10 +85,23 @@ export function PlaneEditor(props: {
   const resolution = levels.length > 1 ? (levels[1]! - levels[0]!) / 2 : 1;
   return (
     <div ref={frame} class="plane-editor">
-      <canvas ref={canvas} width={Math.ceil(width / cell)} height={Math.ceil(height / cell)} style={{ width, height }} />
-      <svg width={width} height={height} role="group" aria-label="Columns of the rule. Double-click to add one." onDblClick={add}>
+      <canvas
+        ref={canvas}
+        width={Math.ceil(width / cell)}
+        height={Math.ceil(height / cell)}
+        style={{ width, height }}
+      />
+      <svg
+        width={width}
+        height={height}
+        role="group"
+        aria-label="Columns of the rule. Double-click to add one."
+        onDblClick={add}
+      >
         {levels.map((level) => (
-          <text key={level} x={3} y={y(level) + 3}>{formatNumber(level, resolution)}</text>
+          <text key={level} x={3} y={y(level) + 3}>
+            {formatNumber(level, resolution)}
+          </text>
         ))}
         {columns.map((column, i) => (
           <g key={i} class={i === selected ? "column selected" : "column"}>
@@ -131,7 +144,12 @@ function drawMap(
   for (let row = 0; row < rows; ++row) {
     const along = alongAt((row + 0.5) * cell);
     for (let column = 0; column < width; ++column) {
-      const swatch = sampleRule(rule, toValue(span, width * cell - 2 * margin, (column + 0.5) * cell - margin), along, materialColor);
+      const swatch = sampleRule(
+        rule,
+        toValue(span, width * cell - 2 * margin, (column + 0.5) * cell - margin),
+        along,
+        materialColor,
+      );
       if (!swatch || swatch.opacity <= 0) continue;
       context.globalAlpha = 0.15 + 0.85 * swatch.opacity ** 0.5;
       context.fillStyle = toHex({ linear: swatch.color });

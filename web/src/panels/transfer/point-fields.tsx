@@ -30,9 +30,27 @@ interface PointFieldsProps {
 const coefficients: readonly { key: NumberKey; label: string; min: number; initial: number; hint: string }[] = [
   { key: "roughness", label: "Roughness", min: 0, initial: 0.4, hint: "Of the surface: 0 is polished, 1 dull" },
   { key: "metallic", label: "Metallic", min: 0, initial: 1, hint: "Share of metal in the surface" },
-  { key: "specular", label: "Specular", min: 0, initial: 0.5, hint: "Reflectance at normal incidence is 0.08 times this" },
-  { key: "anisotropy", label: "Anisotropy", min: -0.99, initial: 0.5, hint: "Of the medium: above 0 light goes on, below 0 back" },
-  { key: "surface_share", label: "Surface share", min: 0, initial: 0.5, hint: "Multiplies the surface that gradients make; 0: medium alone" },
+  {
+    key: "specular",
+    label: "Specular",
+    min: 0,
+    initial: 0.5,
+    hint: "Reflectance at normal incidence is 0.08 times this",
+  },
+  {
+    key: "anisotropy",
+    label: "Anisotropy",
+    min: -0.99,
+    initial: 0.5,
+    hint: "Of the medium: above 0 light goes on, below 0 back",
+  },
+  {
+    key: "surface_share",
+    label: "Surface share",
+    min: 0,
+    initial: 0.5,
+    hint: "Multiplies the surface that gradients make; 0: medium alone",
+  },
 ];
 
 /** Materials that rules may name: the scene's own, then the library's. */

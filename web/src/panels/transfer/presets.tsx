@@ -15,7 +15,10 @@ function useThumbnail(name: string, of: string): string | null {
     const stop = new AbortController();
     const ask = async (tries: number) => {
       try {
-        const response = await fetch(`api/preset/${encodeURIComponent(name)}.png`, { signal: stop.signal, cache: "no-store" });
+        const response = await fetch(`api/preset/${encodeURIComponent(name)}.png`, {
+          signal: stop.signal,
+          cache: "no-store",
+        });
         if (response.ok) return setUrl((made = URL.createObjectURL(await response.blob())));
         if (response.status !== 503) return;
       } catch {
@@ -54,7 +57,14 @@ function Preset({ name, summary, chosen }: { name: string; summary: string; chos
       ["/transfer/points", []],
     ]);
   return (
-    <button type="button" role="radio" aria-checked={chosen} class="preset" title={`${name}: ${summary}`} onClick={choose}>
+    <button
+      type="button"
+      role="radio"
+      aria-checked={chosen}
+      class="preset"
+      title={`${name}: ${summary}`}
+      onClick={choose}
+    >
       <span class={url ? "thumbnail" : "thumbnail waiting"}>{url && <img src={url} alt="" />}</span>
       <span>{name}</span>
     </button>

@@ -14,7 +14,10 @@ export function freeName(of: Scene, wished: string): string {
 
 /** "folder/atlas.nii.gz" -> "atlas". */
 export function nameOfPath(path: string): string {
-  const stem = path.split("/").at(-1)!.replace(/(\.nii|\.ome)?\.[^.]*$/, "");
+  const stem = path
+    .split("/")
+    .at(-1)!
+    .replace(/(\.nii|\.ome)?\.[^.]*$/, "");
   return stem || "volume";
 }
 
@@ -77,7 +80,7 @@ export function Proxies({ of }: { of: Scene }) {
       {picking && (
         <FilePicker
           title="Add a volume"
-         
+
           onClose={() => setPicking(false)}
           onPick={(path) => {
             setPicking(false);
@@ -96,11 +99,13 @@ function ProxyFields({ of, proxy, index }: { of: Scene; proxy: Proxy; index: num
     of.proxies.some((other) => other.kind !== "file" && other.of === proxy.name) ||
     (of.visibility?.important ?? []).some((one) => one.volume === proxy.name || one.along === proxy.name);
   return (
-    <div class="card">
+    <div class="panel-card">
       <header>
         <strong>{proxy.name}</strong>
         <small title={proxy.path}>
-          {proxy.kind === "file" ? proxy.path.split("/").at(-1) : `${kinds.find((k) => k.value === proxy.kind)!.label} of ${proxy.of}`}
+          {proxy.kind === "file"
+            ? proxy.path.split("/").at(-1)
+            : `${kinds.find((k) => k.value === proxy.kind)!.label} of ${proxy.of}`}
         </small>
         <IconButton
           icon="delete"
@@ -110,8 +115,15 @@ function ProxyFields({ of, proxy, index }: { of: Scene; proxy: Proxy; index: num
         />
       </header>
       {proxy.kind === "smoothed" && (
-        <Slider label="Sigma" unit="mm" min={0.2} max={20} logarithmic value={proxy.sigma_mm}
-          onChange={(value, gesture) => edit([[`${at}/sigma_mm`, value]], gesture)} />
+        <Slider
+          label="Sigma"
+          unit="mm"
+          min={0.2}
+          max={20}
+          logarithmic
+          value={proxy.sigma_mm}
+          onChange={(value, gesture) => edit([[`${at}/sigma_mm`, value]], gesture)}
+        />
       )}
       {proxy.kind === "distance" && (
         <>
@@ -122,7 +134,10 @@ function ProxyFields({ of, proxy, index }: { of: Scene; proxy: Proxy; index: num
               aria-label="Labels that are inside"
               value={proxy.labels.join(", ")}
               onChange={(event) => {
-                const labels = event.currentTarget.value.split(/[\s,]+/).map(Number).filter((n) => Number.isInteger(n) && n !== 0);
+                const labels = event.currentTarget.value
+                  .split(/[\s,]+/)
+                  .map(Number)
+                  .filter((n) => Number.isInteger(n) && n !== 0);
                 if (labels.length) edit([[`${at}/labels`, labels]]);
               }}
             />
@@ -131,12 +146,23 @@ function ProxyFields({ of, proxy, index }: { of: Scene; proxy: Proxy; index: num
       )}
       {proxy.kind === "file" && (
         <>
-          <Toggle label="Labels" hint="Whole numbers that are never interpolated" value={proxy.lookup === "nearest"}
-            disabled={used} onChange={(on) => edit([[`${at}/lookup`, on ? "nearest" : "linear"]])} />
+          <Toggle
+            label="Labels"
+            hint="Whole numbers that are never interpolated"
+            value={proxy.lookup === "nearest"}
+            disabled={used}
+            onChange={(on) => edit([[`${at}/lookup`, on ? "nearest" : "linear"]])}
+          />
           {proxy.lookup === "nearest" && (
-            <Select label="Outline" value={proxy.outline}
-              options={[{ value: "smooth", label: "Smooth" }, { value: "voxels", label: "Faces of voxels" }]}
-              onChange={(outline) => edit([[`${at}/outline`, outline]])} />
+            <Select
+              label="Outline"
+              value={proxy.outline}
+              options={[
+                { value: "smooth", label: "Smooth" },
+                { value: "voxels", label: "Faces of voxels" },
+              ]}
+              onChange={(outline) => edit([[`${at}/outline`, outline]])}
+            />
           )}
         </>
       )}
@@ -146,7 +172,9 @@ function ProxyFields({ of, proxy, index }: { of: Scene; proxy: Proxy; index: num
 }
 
 function NumberNote({ proxy }: { proxy: Proxy }) {
-  if (proxy.kind === "gradient") return <p class="note">Gradient magnitude, per mm: large at borders between tissues.</p>;
-  if (proxy.kind === "distance") return <p class="note">Signed distance from the labels' border [mm], positive inside.</p>;
+  if (proxy.kind === "gradient")
+    return <p class="note">Gradient magnitude, per mm: large at borders between tissues.</p>;
+  if (proxy.kind === "distance")
+    return <p class="note">Signed distance from the labels' border [mm], positive inside.</p>;
   return null;
 }

@@ -1,8 +1,8 @@
 import { moved, mostRules, newRule, ruleKinds, withAlong, withKind } from "../../model/rules";
-import { edit, newGesture } from "../../state/scene";
+import { edit, newGesture, scene } from "../../state/scene";
 import type { Rule, Scene, Transfer } from "../../state/scene-types";
 import { Button, IconButton, Select } from "../../ui/controls";
-import { ruleVolumes, type Domain } from "./domain";
+import { ruleVolumes, spanOf, type Domain } from "./domain";
 
 const kindName = (kind: Rule["kind"]) => ruleKinds.find((one) => one.kind === kind)!.name;
 
@@ -12,8 +12,16 @@ function describe(rule: Rule): string {
 }
 
 const merges: { value: Transfer["merge"]; label: string; hint: string }[] = [
-  { value: "priority", label: "First that applies", hint: "Every coefficient is that of the first rule that applies and gives it" },
-  { value: "product", label: "Product", hint: "Opacities and colors are multiplied: matter is seen only where every rule has it" },
+  {
+    value: "priority",
+    label: "First that applies",
+    hint: "Every coefficient is that of the first rule that applies and gives it",
+  },
+  {
+    value: "product",
+    label: "Product",
+    hint: "Opacities and colors are multiplied: matter is seen only where every rule has it",
+  },
   { value: "maximum", label: "Densest", hint: "The rule of the greatest extinction comes first" },
 ];
 
@@ -22,12 +30,14 @@ export function RuleList({ of, chosen, onChoose }: { of: Scene; chosen: number; 
   const { rules, merge } = of.transfer;
   const set = (next: Rule[]) => edit([["/transfer/rules", next]], newGesture("rules"));
   const volumes = ruleVolumes(of);
-  const add = () => {
+  const add = async () => {
     const labels = volumes.find((volume) => volume.discrete);
-    const rule = labels
-      ? newRule("mdptf", labels.name, { lo: 0, hi: 255 })
-      : newRule("cctf", volumes.find((v) => v.name !== "data")?.name ?? "data", { lo: 0, hi: 1 });
-    set([rule, ...rules]);
+    const name = labels?.name ?? volumes.find((v) => v.name !== "data" && v.name !== "opacity")?.name ?? "data";
+    const span = await spanOf(name);
+    // Meanwhile others may have changed the rules.
+    edit([
+      ["/transfer/rules", [newRule(labels ? "mdptf" : "cctf", name, span), ...(scene.peek()?.transfer.rules ?? [])]],
+    ]);
     onChoose(0);
   };
   return (
@@ -68,11 +78,18 @@ export function RuleList({ of, chosen, onChoose }: { of: Scene; chosen: number; 
         </li>
       </ol>
       {rules.length > 0 && (
-        <Select label="Merge" value={merge} options={merges} hint={merges.find((m) => m.value === merge)?.hint}
-          onChange={(value) => edit([["/transfer/merge", value]])} />
+        <Select
+          label="Merge"
+          value={merge}
+          options={merges}
+          hint={merges.find((m) => m.value === merge)?.hint}
+          onChange={(value) => edit([["/transfer/merge", value]])}
+        />
       )}
       <div class="row-actions">
-        <Button icon="add" onClick={add} disabled={rules.length >= mostRules}>Add a rule</Button>
+        <Button icon="add" onClick={() => void add()} disabled={rules.length >= mostRules}>
+          Add a rule
+        </Button>
       </div>
     </>
   );
@@ -106,7 +123,12 @@ export function RuleFields(props: {
         value={rule.volume}
         options={volumes}
         onChange={(name) => {
-          const kind = !discrete(name) && rule.kind === "cdptf" ? "cpctf" : !discrete(name) && rule.kind === "mdptf" ? "mpctf" : rule.kind;
+          const kind =
+            !discrete(name) && rule.kind === "cdptf"
+              ? "cpctf"
+              : !discrete(name) && rule.kind === "mdptf"
+                ? "mpctf"
+                : rule.kind;
           change({ ...withKind(rule, kind), volume: name });
         }}
       />
