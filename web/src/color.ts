@@ -29,3 +29,16 @@ export function linear(color: Color): Vec3 {
   if ("linear" in color) return color.linear;
   return color.map(toLinear) as unknown as Vec3;
 }
+
+/** A color whose channels may exceed 1 as one that can be shown, and the factor that was taken out. */
+export function splitScale(color: Color): { hex: string; scale: number } {
+  const channels = linear(color);
+  const scale = Math.max(...channels);
+  if (!(scale > 1)) return { hex: toHex(color), scale: 1 };
+  return { hex: toHex({ linear: channels.map((c) => c / scale) as unknown as Vec3 }), scale };
+}
+
+/** Inverse of splitScale. */
+export function joinScale(hex: string, scale: number): Color {
+  return scale === 1 ? hex : { linear: linear(hex).map((c) => c * scale) as unknown as Vec3 };
+}

@@ -1,5 +1,7 @@
 import type { ComponentType } from "preact";
+import "../styles/panels.css";
 import type { IconName } from "../ui/icons";
+import { TransferPanel } from "./transfer/panel";
 
 /** The panels, in the order of the rail at the right edge. One is open beside the picture at a time, and one below it;
  * a panel's component exists only while it is open. It reads state/, changes the scene by edit(), and is made of ui/. */
@@ -13,4 +15,6 @@ export interface Panel {
   place: "side" | "bottom";
 }
 
-export const panels: readonly Panel[] = [];
+export const panels: readonly Panel[] = [
+  { id: "transfer", title: "Transfer function", icon: "curve", component: TransferPanel, place: "side" },
+];

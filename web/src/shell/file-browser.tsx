@@ -25,8 +25,13 @@ export function formatBytes(bytes: number): string {
   return `${size < 10 ? size.toFixed(1) : Math.round(size)} ${unit}`;
 }
 
-/** The files below the folder the viewer was started with; volumes and scenes can be opened, folders entered. */
-export function FileBrowser({ onOpen }: { onOpen?(): void }) {
+/** The files below the folder the viewer was started with; those of `kinds` (volumes and scenes) can be chosen, which
+ * opens them unless `onChoose` is given, and folders entered. */
+export function FileBrowser({ onOpen, onChoose = openPath, kinds = ["volume", "scene"] }: {
+  onOpen?(): void;
+  onChoose?(path: string): void;
+  kinds?: readonly Entry["kind"][];
+}) {
   const [path, setPath] = useState("");
   const [entries, setEntries] = useState<Entry[] | null>(null);
   const [failure, setFailure] = useState("");
@@ -44,11 +49,10 @@ export function FileBrowser({ onOpen }: { onOpen?(): void }) {
   const parts = path.split("/").filter(Boolean);
   const choose = (entry: Entry) => {
     if (entry.kind === "folder") return setPath(entry.path);
-    openPath(entry.path);
+    onChoose(entry.path);
     onOpen?.();
   };
-  const order = (entry: Entry) =>
-    entry.kind === "folder" ? 0 : entry.kind === "other" || entry.kind === "environment" ? 2 : 1;
+  const order = (entry: Entry) => (entry.kind === "folder" ? 0 : kinds.includes(entry.kind) ? 1 : 2);
   const sorted = entries
     ?.slice()
     .sort((a, b) => order(a) - order(b) || a.name.localeCompare(b.name, undefined, { numeric: true }));
@@ -75,7 +79,7 @@ export function FileBrowser({ onOpen }: { onOpen?(): void }) {
             key={entry.path}
             type="button"
             class={`entry ${entry.kind}`}
-            disabled={entry.kind === "other" || entry.kind === "environment"}
+            disabled={order(entry) === 2}
             onClick={() => choose(entry)}
           >
             <Icon name={icons[entry.kind]} />
