@@ -37,16 +37,18 @@ export const savePng = () => download("api/picture.png", `${baseName()}.png`);
 export const saveExr = () => download("api/picture.exr", `${baseName()}.exr`);
 export const saveScene = () => download("api/scene.json", `${baseName()}-scene.json`);
 
-/** Copies a link that opens this scene: for whoever may use this viewer and has the same volume at the same path. */
+/** Copies a link that opens this scene: for whoever may use this viewer and has the same volume at the same path.
+ * Where the browser does not let pages copy (plain HTTP to another machine) the link goes into the address bar. */
 export async function copyLink(): Promise<void> {
   const now = scene.peek();
   if (!now) return;
+  const address = new URL(document.baseURI);
+  address.hash = await encodeScene(now);
   try {
-    const address = new URL(document.baseURI);
-    address.hash = await encodeScene(now);
     await navigator.clipboard.writeText(address.href);
     showToast({ text: "Link to this scene copied" });
   } catch {
-    showToast({ tone: "warning", text: "The browser does not let the page copy. Save the scene as a file instead." });
+    history.replaceState(null, "", address.href);
+    showToast({ text: "The browser does not let the page copy: the link is in the address bar" });
   }
 }

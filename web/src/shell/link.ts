@@ -1,5 +1,5 @@
-/** Scenes in links: the part of the address behind "#scene=" is the scene's JSON, deflated and base64url-encoded. It
- * stays in the browser: no server sees it. */
+/** Scenes in links: the part of the address behind "#scene=" is the scene's JSON, deflated (zlib) and
+ * base64url-encoded. It stays in the browser: no server sees it. */
 
 const kKey = "#scene=";
 
@@ -10,7 +10,7 @@ async function through(bytes: Uint8Array, stream: CompressionStream | Decompress
 
 /** "#scene=..." of a scene. */
 export async function encodeScene(scene: unknown): Promise<string> {
-  const bytes = await through(new TextEncoder().encode(JSON.stringify(scene)), new CompressionStream("deflate-raw"));
+  const bytes = await through(new TextEncoder().encode(JSON.stringify(scene)), new CompressionStream("deflate"));
   const binary = Array.from(bytes, (byte) => String.fromCharCode(byte)).join("");
   return kKey + btoa(binary).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");
 }
@@ -21,7 +21,7 @@ export async function decodeScene(hash: string): Promise<unknown> {
   try {
     const binary = atob(hash.slice(kKey.length).replaceAll("-", "+").replaceAll("_", "/"));
     const bytes = Uint8Array.from(binary, (char) => char.charCodeAt(0));
-    return JSON.parse(new TextDecoder().decode(await through(bytes, new DecompressionStream("deflate-raw"))));
+    return JSON.parse(new TextDecoder().decode(await through(bytes, new DecompressionStream("deflate"))));
   } catch {
     throw new Error("The scene of this link is damaged: copy the whole link again.");
   }

@@ -9,8 +9,8 @@ import {
   toggleProjection,
   zoomBy,
 } from "../view/camera-control";
-import { cancelMeasuring, measuring, removeLast } from "../view/measure";
-import { toggleClip, toggleLights, toggleMeasuring, toggleSplit } from "../view/toolbar";
+import { measuring, removeLast } from "../view/measure";
+import { endTool, toggleClip, toggleLights, toggleMeasuring, toggleSplit, toolInUse } from "../view/toolbar";
 import { helpShown, toggleFullscreen, toggleSlices } from "./page-state";
 import { copyLink, savePng } from "./keep";
 import { openDialog } from "./opening";
@@ -116,10 +116,10 @@ export const shortcuts: readonly Shortcut[] = [
   },
   {
     keys: ["Esc"],
-    what: "End measuring",
+    what: "End the tool",
     group: "Tools",
-    matches: (event) => measuring.value && key("escape")(event),
-    run: cancelMeasuring,
+    matches: (event) => toolInUse() && key("escape")(event),
+    run: endTool,
   },
   { keys: ["L"], what: "Light handles", group: "Tools", matches: key("l"), run: toggleLights },
   { keys: ["C"], what: "Clip handles", group: "Tools", matches: key("c"), run: toggleClip },

@@ -3,7 +3,7 @@ import { setSplit, split } from "../state/session";
 import { clipHandles, lightHandles, pointerTool } from "../state/tools";
 import { Button, IconButton } from "../ui/controls";
 import { fitView, toggleProjection } from "./camera-control";
-import { clearMeasurements, measurements, measuring } from "./measure";
+import { cancelMeasuring, clearMeasurements, measurements, measuring } from "./measure";
 
 /** The tools over the picture, at its left edge. */
 
@@ -13,6 +13,16 @@ export const toggleMeasuring = () => (pointerTool.value = measuring.peek() ? "na
 export const toggleLights = () => (lightHandles.value = !lightHandles.peek());
 export const toggleClip = () => (clipHandles.value = !clipHandles.peek());
 export const toggleSplit = () => setSplit(split.peek() === null ? 0.5 : null);
+
+export const toolInUse = () => measuring.peek() || lightHandles.peek() || clipHandles.peek() || split.peek() !== null;
+
+/** Ends measuring, or first the distance that is begun; else hides all handles. */
+export function endTool(): void {
+  if (measuring.peek()) return cancelMeasuring();
+  lightHandles.value = false;
+  clipHandles.value = false;
+  if (split.peek() !== null) setSplit(null);
+}
 
 export function Toolbar() {
   const orthographic = scene.value?.camera.projection === "orthographic";
@@ -64,6 +74,13 @@ export function ToolHint() {
         <span>Drag a face of the box</span>
         {clip.value && <Button onClick={() => edit([["/clip", null]])}>Remove clip</Button>}
         <Button onClick={toggleClip}>Done</Button>
+      </div>
+    );
+  if (lightHandles.value)
+    return (
+      <div class="hint floating">
+        <span>Drag a light; wheel or Shift moves it nearer or farther</span>
+        <Button onClick={toggleLights}>Done</Button>
       </div>
     );
   return null;
