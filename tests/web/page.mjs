@@ -49,9 +49,11 @@ class Page {
     return this.page.getByRole("img", { name: "The rendered volume" });
   }
 
-  /** The scene as the server has it. */
-  scene() {
-    return this.page.evaluate(async () => (await fetch("/api/scene.json")).json());
+  /** The scene as the server has it; fields that are as by default are left out of its file. */
+  async scene() {
+    const scene = await this.page.evaluate(async () => (await fetch("/api/scene.json")).json());
+    scene.camera = { azimuth_deg: 0, elevation_deg: 0, zoom: 1, ...scene.camera };
+    return scene;
   }
 
   /** Until the scene as the server has it satisfies `pred`; then the scene. */

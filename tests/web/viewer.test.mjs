@@ -60,13 +60,12 @@ test("orbits, zooms, pans and undoes, by mouse and by keys", async (t) => {
 test("views along the patient's axes name the sides", async (t) => {
   const viewer = await open(t, [headCt, ...quick]);
   await viewer.done();
-  await viewer.page.getByRole("button", { name: /^(View from )?left$/i }).first().click();
+  await viewer.page.getByRole("button", { name: /^Left: from/ }).click();
   await viewer.sceneWith((s) => Math.abs(s.camera.azimuth_deg - 90) < 1e-6, "the view from the left");
   await viewer.done();
-  // From the patient's left the face is on the left of the picture.
-  const letters = await viewer.page.locator(".orientation-letters, [aria-label='Sides of the patient']").first().textContent();
-  assert.match(letters ?? "", /A/);
-  assert.match(letters ?? "", /P/);
+  // From the patient's left the face is on the left of the picture, the back of the head on its right.
+  const letters = await viewer.page.locator(".edge-labels text").allTextContents();
+  assert.deepEqual(letters.map((letter) => letter.trim()), ["P", "A", "S", "I"]);
 });
 
 test("presets and points of the transfer function change the picture", async (t) => {
@@ -103,11 +102,12 @@ test("clips by handles, and saves, loads and keeps the scene", async (t) => {
   await viewer.done();
   const whole = await viewer.shown("whole.png");
   await viewer.button("Clip handles").click();
-  const handle = viewer.page.getByLabel(/^Clip from the/).first();
-  await handle.focus();
-  for (let i = 0; i < 30; ++i) await viewer.page.keyboard.press("Shift+ArrowRight");
-  for (let i = 0; i < 30; ++i) await viewer.page.keyboard.press("ArrowRight");
-  const clipped = await viewer.sceneWith((s) => s.clip, "a clip box");
+  await viewer.page.getByLabel("Clip from the right").focus();
+  for (let i = 0; i < 50; ++i) await viewer.page.keyboard.press("ArrowRight");
+  await viewer.sceneWith((s) => s.clip?.x_mm?.[0] > -20, "a clip box");
+  const top = await viewer.page.getByLabel("Clip from the head").boundingBox();
+  await viewer.drag([0, 60], { from: [top.x + top.width / 2, top.y + top.height / 2] });
+  const clipped = await viewer.sceneWith((s) => s.clip.z_mm?.[1] < 1e29, "its upper side");
   await viewer.page.waitForTimeout(400);
   await viewer.done();
   assert.ok(psnr(whole, await viewer.shown("clipped.png")) < 45, "clipping changes nothing");
@@ -146,7 +146,7 @@ test("the picture is saved at full size", async (t) => {
 
 test("begins with the samples, opens a dropped file, and says what to do with a bad one", async (t) => {
   const viewer = await open(t, []);
-  await viewer.page.getByRole("button", { name: /phantom/i }).first().click();
+  await viewer.page.getByRole("button", { name: /^Phantom/ }).click();
   await viewer.page.waitForFunction(() => document.title.includes("phantom"), undefined, { timeout: 60000 });
 
   const drop = async (name, bytes) => {
