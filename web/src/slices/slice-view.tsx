@@ -165,7 +165,7 @@ export function SliceView({ plane, overlay }: { plane: Plane; overlay: string })
       ref={root}
       class={dragTool.value === "window" ? "slice windowing" : "slice"}
       style={{ gridArea: plane }}
-      tabIndex={0}
+      tabindex={0}
       role="group"
       aria-label={`${layout.title} slice at ${mm.toFixed(1)} mm. Arrow keys go through the slices.`}
       onPointerDown={down}

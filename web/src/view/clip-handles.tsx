@@ -101,7 +101,7 @@ function Face({ shown, box, axis, side }: FaceProps) {
       <g
         class="handle"
         role="slider"
-        tabIndex={0}
+        tabindex={0}
         aria-label={`Clip from the ${name}`}
         aria-valuenow={Math.round(at)}
         aria-valuetext={`${at.toFixed(0)} mm`}

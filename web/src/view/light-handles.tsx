@@ -171,7 +171,7 @@ function Handle({ index, light, scenery }: { index: number; light: Light; scener
       <g
         class="handle"
         role="button"
-        tabIndex={0}
+        tabindex={0}
         aria-label={`${kindName} ${index + 1}`}
         transform={`translate(${place.x} ${place.y})`}
         onPointerDown={press}

@@ -133,7 +133,7 @@ export function Measurements() {
             <g
               class="handle remove"
               role="button"
-              tabIndex={0}
+              tabindex={0}
               aria-label={`Delete the distance of ${formatted(distance(one.a, one.b))}`}
               onClick={() => removeMeasurement(one.id)}
               onKeyDown={(event) => (event.key === "Enter" || event.key === "Delete") && removeMeasurement(one.id)}

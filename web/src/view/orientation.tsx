@@ -62,7 +62,7 @@ function Face({ camera, letter, name, vector }: { camera: FrameCamera } & (typeo
   const views = axisViews.find((one) => one.letter === letter)!;
   const look = () => lookFrom(views.azimuth_deg, views.elevation_deg);
   return (
-    <g class="cube-face" role="button" tabIndex={-1} aria-label={`View from ${name}`} onClick={look}>
+    <g class="cube-face" role="button" tabindex={-1} aria-label={`View from ${name}`} onClick={look}>
       <polygon
         points={corners.map(([a, b]) => `${mx + a * rx + b * ux},${my + a * ry + b * uy}`).join(" ")}
         style={{ "--facing": facing }}

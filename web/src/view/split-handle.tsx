@@ -29,7 +29,7 @@ export function SplitHandle() {
     <g
       class="handle split"
       role="slider"
-      tabIndex={0}
+      tabindex={0}
       aria-label="Split between traced and denoised picture"
       aria-valuenow={Math.round(at * 100)}
       aria-valuemin={0}

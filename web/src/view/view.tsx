@@ -66,7 +66,7 @@ export function View() {
     <div
       ref={area}
       class={measuring.value ? "view measuring" : "view"}
-      tabIndex={0}
+      tabindex={0}
       role="application"
       aria-label="View of the volume. Arrow keys orbit, plus and minus zoom, question mark lists all keys."
     >

@@ -142,7 +142,7 @@ export function KeyframeStrip({
             y={0}
             width={16}
             height={ruler}
-            tabIndex={0}
+            tabindex={0}
             role="slider"
             aria-label="Time"
             aria-valuemin={0}
@@ -165,7 +165,7 @@ export function KeyframeStrip({
             class={isSelected(key) ? "keyframe selected" : "keyframe"}
             d="M0 -7L7 0L0 7L-7 0Z"
             transform={`translate(${x(key.time)} ${ruler + lane / 2})`}
-            tabIndex={0}
+            tabindex={0}
             role="button"
             aria-pressed={isSelected(key)}
             aria-label={`Keyframe at ${key.time.toFixed(2)} seconds, ${key.fields.length} fields. Arrow keys move it, Delete removes it, Enter shows it.`}

@@ -224,7 +224,7 @@ export function CurveEditor(props: CurveEditorProps) {
                 cy={y(opacity)}
                 r={i === selected ? 6 : 5}
                 fill={fill}
-                tabIndex={0}
+                tabindex={0}
                 role="button"
                 aria-pressed={i === selected}
                 aria-label={`Point ${i + 1} of ${points.length}: value ${formatNumber(p.value, (span.hi - span.lo) / 1000)}${domain.unit ? ` ${domain.unit}` : ""}, opacity ${formatNumber(opacity, 0.001)}${extinction ? " (extinction)" : ""}`}

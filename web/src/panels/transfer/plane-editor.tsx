@@ -112,7 +112,7 @@ export function PlaneEditor(props: {
               x2={width}
               y1={y(column.at)}
               y2={y(column.at)}
-              tabIndex={0}
+              tabindex={0}
               role="button"
               aria-pressed={i === selected}
               aria-label={`Column at ${formatNumber(column.at, resolution / 10)}`}

@@ -81,7 +81,7 @@ export function RangeHistogram(props: {
               y={0}
               width={12}
               height={height}
-              tabIndex={0}
+              tabindex={0}
               role="slider"
               aria-label={end === 0 ? "From" : "To"}
               aria-valuemin={span.lo}
