@@ -157,7 +157,7 @@ export function PointFields({ points, index, kind, domain, referenceMm, onChange
           hint="Light that an opaque region would glow with"
           given={point.emission !== undefined}
           onGiven={(given) =>
-            onChange(withCoefficient(point, "emission", given ? "#ff8040" : undefined), newGesture("coefficient"))
+            onChange(withCoefficient(point, "emission", given ? { linear: [0.2, 0.07, 0.02] } : undefined), newGesture("coefficient"))
           }
         >
           <Emission point={point} onChange={onChange} />
