@@ -19,14 +19,14 @@ struct ListRefinement {
 SegmentListView find_importance(const SceneView& scene, int x, int y, const ListRefinement& refinement,
                                 std::vector<ImportanceSegment>& segments);
 
-/// Takes how much of the lists is done, in (0, 1]: about ten times a second, from one thread at a time.
+/// Takes how much of the lists is done, in (0, 1]: about ten times a second, from one thread at a time. What
+/// it throws ends them.
 using ListProgress = std::function<void(double share)>;
 
 /// The list of every pixel, in one pool. Owns what view() points to.
 class PixelLists {
  public:
-  /// `scene` has its camera, medium, clip box and importance. `progress` may be empty and must not
-  /// throw.
+  /// `scene` has its camera, medium, clip box and importance. `progress` may be empty.
   PixelLists(const SceneView& scene, const ListRefinement& refinement, const ListProgress& progress = {});
   PixelListsView view() const { return {heads_.data(), pool_.data()}; }
 

@@ -245,7 +245,10 @@ void LiveSession::Loop::move() {
 
 void LiveSession::Loop::compile_still() {
   if (still_compiled_) return;
-  spent_.compile_s += timed([&] { live_.session_.compile(*scene_); });
+  const auto give_way = [this](double) {
+    if (live_.cancel_) throw Cancelled();
+  };
+  spent_.compile_s += timed([&] { live_.session_.compile(*scene_, give_way); });
   still_compiled_ = true;
 }
 
@@ -276,7 +279,11 @@ int LiveSession::Loop::next_still_spp() const {
 }
 
 void LiveSession::Loop::refine() {
-  compile_still();
+  try {
+    compile_still();
+  } catch (const Cancelled&) {
+    return;
+  }
   if (!still_) prepare(still_, scene_->image.width, scene_->image.height, layers());
   done_ = still_done();
   const bool due = shown_ == Shown::kNot || (shown_ == Shown::kQuickly && at_rest());

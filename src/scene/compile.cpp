@@ -130,10 +130,10 @@ void CompiledScene::compile(SceneDescription description, bool everything, const
   put_scattering(parts, description);
   put_illustration(description);
   put_image(description);
-  put_visibility(std::move(importance), local, !everything && same_pixel_lists(description, description_),
-                 progress);
   put_integrator(local, sphere, !everything && same_light(description, description_));
+  const bool same_lists = !everything && same_pixel_lists(description, description_);
   description_ = std::move(description);
+  put_visibility(std::move(importance), local, same_lists, progress);  // last: it can be ended half way
 }
 
 CompiledScene::Parts CompiledScene::compile_parts(const SceneDescription& description,

@@ -30,7 +30,7 @@ class CompiledScene {
  public:
   /// `description` is resolved (scene/resolve.h); reads its environment picture and label volume.
   /// Throws Error with the scene path or file of what is wrong; kUnsupported for a choice that is not built.
-  /// `progress`, which may be empty and must not throw, hears of the lists of what is important.
+  /// `progress`, which may be empty, hears of the lists of what is important, and ends them by throwing.
   CompiledScene(SceneDescription description, Volume volume, const VolumeStatistics& statistics,
                 const ListProgress& progress = {});
   CompiledScene(const CompiledScene&) = delete;
@@ -40,7 +40,8 @@ class CompiledScene {
   /// box take microseconds, a transfer function the majorants that it changes; value ranges are built again
   /// for another accelerator only. `description` is resolved; its volume counts as the one at hand. Nothing
   /// may be tracing, and copies of view() are out of date afterwards. Throws as the constructor does; the
-  /// scene is then what it was, but for warnings().
+  /// scene is then what it was, but for warnings(). Where `progress` has thrown, the scene is the new one without
+  /// its lists: it must not be traced before it is updated again, to any scene.
   void update(SceneDescription description, const ListProgress& progress = {});
 
   const SceneView& view() const { return view_; }

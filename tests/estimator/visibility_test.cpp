@@ -221,6 +221,35 @@ TEST(Visibility, ListsAreKeptWhereNothingMoves) {
   EXPECT_TRUE(rebuilt(first));
 }
 
+/// Lists that are ended half way leave a scene that can be updated, to itself and to any other.
+TEST(Visibility, ListsCanBeEnded) {
+  struct Ended {};
+  SceneDescription scene = as_tested(hidden_blobs(VisibilityLights::kOff));
+  scene.image.width = scene.image.height = 192;
+  const Volume volume = two_blobs();
+  const VolumeStatistics statistics = compute_statistics(make_grid_view(volume));
+  const auto resolved = [&](const SceneDescription& s) { return resolve(s, volume, statistics); };
+  SceneDescription turned = scene;
+  turned.camera.azimuth_deg = 40;
+  turned.transfer.density_scale = 3;
+  CompiledScene compiled(resolved(scene), volume, statistics);
+  for (const SceneDescription& next : {turned, scene}) {
+    EXPECT_THROW(compiled.update(resolved(turned), [](double) { throw Ended(); }), Ended);
+    EXPECT_EQ(compiled.importance_list_bytes(), 0u);
+    compiled.update(resolved(next));
+    const CompiledScene fresh(resolved(next), volume, statistics);
+    for (int y = 0; y < 192; y += 19)
+      for (int x = 0; x < 192; x += 17) {
+        TraceCounters counters;
+        const PixelSample a = trace_camera_sample(compiled.view(), x, y, 0, counters);
+        const PixelSample b = trace_camera_sample(fresh.view(), x, y, 0, counters);
+        EXPECT_EQ(a.radiance.x, b.radiance.x);
+        EXPECT_EQ(a.alpha, b.alpha);
+      }
+    compiled.update(resolved(scene));
+  }
+}
+
 TEST(Visibility, IsTheSameForAnyScale) {
   SceneDescription scene = hidden_blobs(VisibilityLights::kOff);
   const Compiled small(scene, two_blobs());
