@@ -86,11 +86,11 @@ int view(const ViewRequest& request) {
                "warning: listening at {}: whoever has the address that is printed below can see and change "
                "the picture and read the files of the folder, and nothing is encrypted on its way\n",
                request.address);
-  server::serve(options, [&](const std::string& url) {
-    fmt::print("{}\n", url);
-    std::fflush(stdout);
-    if (!request.no_open) open_browser(url);
-  });
+  server::Server server(options);
+  fmt::print("{}\n", server.url());
+  std::fflush(stdout);
+  if (!request.no_open) open_browser(server.url());
+  server.run();
   return kDone;
 }
 
