@@ -1,4 +1,5 @@
 #pragma once
+#include <atomic>
 #include <cstdint>
 #include <functional>
 
@@ -21,8 +22,24 @@ class ThreadLimit {
 /// How many threads parallel_for uses now.
 int thread_count();
 
+/// What parallel_for throws when its work is not wanted any more.
+struct Cancelled {};
+
+/// While it lives, parallel_for called by this thread throws Cancelled soon after `flag` is set; what it was
+/// at is left half done.
+class CancelScope {
+ public:
+  explicit CancelScope(const std::atomic<bool>& flag);
+  ~CancelScope();
+  CancelScope(const CancelScope&) = delete;
+  CancelScope& operator=(const CancelScope&) = delete;
+
+ private:
+  const std::atomic<bool>* outer_;
+};
+
 /// Calls body(i) once for each i in [0, count), in any order and on several threads. Exceptions thrown by
-/// `body` reach the caller. Work is handed out in runs of `grain` indices.
+/// `body` reach the caller, as does Cancelled. Work is handed out in runs of `grain` indices.
 void parallel_for(std::int64_t count, std::int64_t grain, const std::function<void(std::int64_t)>& body);
 
 }  // namespace voxlume

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/parallel.h"
 #include "integrator/path_tracer.h"
 #include "render/film_image.h"
 #include "render/fingerprint.h"
@@ -329,8 +330,16 @@ Image8 LiveSession::Loop::develop(const RenderState& state, const Image& linear)
 void LiveSession::Loop::publish(const RenderState& state, Shown how) {
   const Clock::time_point begin = Clock::now();
   auto frame = std::make_shared<LiveFrame>(spent_);
-  frame->denoise_s = timed([&] { frame->linear = picture(state, how); });
-  frame->develop_s = timed([&] { frame->picture = develop(state, *frame->linear); });
+  try {
+    // A large picture takes its time; one in a hurry is shown whatever comes.
+    std::optional<CancelScope> scope;
+    if (how == Shown::kWell) scope.emplace(live_.cancel_);
+    frame->denoise_s = timed([&] { frame->linear = picture(state, how); });
+    frame->develop_s = timed([&] { frame->picture = develop(state, *frame->linear); });
+  } catch (const Cancelled&) {
+    forgets_ = true;
+    return;
+  }
   frame->number = ++frames_;
   frame->revision = revision_;
   frame->moving = how == Shown::kQuickly;

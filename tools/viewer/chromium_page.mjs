@@ -1,0 +1,49 @@
+// Starts `voxlume view` and a headless Chromium with its page, for tests and measurements.
+import { spawn } from "node:child_process";
+import { createRequire } from "node:module";
+import { existsSync } from "node:fs";
+
+const top = new URL("../../", import.meta.url).pathname;
+const require = createRequire(`${top}web/package.json`);
+export const { chromium } = require("playwright-core");
+
+/** Chromium's program; null where there is none. */
+export function chromiumPath() {
+  const named = process.env.VOXLUME_CHROMIUM;
+  return [named, "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find((p) => p && existsSync(p)) ?? null;
+}
+
+/** The program as a viewer; `url` opens it. `end()` is its Ctrl-C and gives its exit code. */
+export async function startViewer(args, environment = {}) {
+  const program = process.env.VOXLUME_BINARY ?? `${top}build/release/voxlume`;
+  const child = spawn(program, ["view", "--no-open", "--port", "0", ...args], {
+    cwd: top,
+    env: { ...process.env, VOXLUME_PAGE: `${top}build/web`, ...environment },
+    stdio: ["ignore", "pipe", "inherit"],
+  });
+  const exited = new Promise((resolve) => child.once("exit", (code) => resolve(code)));
+  const url = await new Promise((resolve, reject) => {
+    let text = "";
+    child.stdout.on("data", (data) => {
+      text += data;
+      if (text.includes("\n")) resolve(text.trim());
+    });
+    exited.then((code) => reject(new Error(`voxlume view ended with ${code}`)));
+  });
+  return {
+    url,
+    end() {
+      child.kill("SIGINT");
+      return exited;
+    },
+    kill() {
+      child.kill("SIGKILL");
+      return exited;
+    },
+  };
+}
+
+/** A browser without a screen. */
+export function startBrowser() {
+  return chromium.launch({ executablePath: chromiumPath(), args: ["--no-sandbox", "--disable-dev-shm-usage"] });
+}

@@ -1,0 +1,21 @@
+import { render } from "preact";
+import { App } from "./shell/app";
+import { openLinkedScene } from "./shell/files";
+import { announceTrouble } from "./shell/notices";
+import { applyTheme } from "./shell/theme";
+import { connect, on } from "./state/connection";
+import "./styles/tokens.css";
+import "./styles/base.css";
+import "./styles/controls.css";
+import "./styles/shell.css";
+import "./styles/opening.css";
+import "./styles/view.css";
+
+applyTheme();
+announceTrouble();
+render(<App />, document.getElementById("page")!);
+
+// A link to a scene is opened once the server is there, also when it is put into the address of an open page.
+on("hello", () => void openLinkedScene());
+addEventListener("hashchange", () => void openLinkedScene());
+connect();

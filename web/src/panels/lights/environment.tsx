@@ -1,0 +1,111 @@
+import { joinScale, splitScale, toHex } from "../../color";
+import { edit } from "../../state/scene";
+import { hello } from "../../state/session";
+import type { Scene } from "../../state/scene-types";
+import { ColorField, Segmented, Select, Slider, Toggle } from "../../ui/controls";
+
+/** Light from everywhere. */
+export function EnvironmentFields({ of }: { of: Scene }) {
+  const environment = of.environment;
+  if (!environment) return null;
+  const known = hello.value?.environments ?? [];
+  // The server may write the path in another form than it lists.
+  const listed = known.find(
+    ({ path }) => path === environment.image || environment.image.endsWith(`/${path.split("/").at(-1)}`),
+  );
+  const options = [
+    { value: "", label: "Constant color" },
+    ...known.map(({ name, path }) => ({ value: path, label: name })),
+    ...(environment.image && !listed
+      ? [{ value: environment.image, label: environment.image.split("/").at(-1)! }]
+      : []),
+  ];
+  const { hex, scale } = splitScale(environment.color);
+  return (
+    <>
+      <Select
+        label="Picture"
+        value={listed?.path ?? environment.image}
+        options={options}
+        onChange={(image) => edit([["/environment/image", image]])}
+      />
+      <ColorField
+        label={environment.image ? "Tint" : "Color"}
+        value={hex}
+        onChange={(value, gesture) => edit([["/environment/color", joinScale(value, scale)]], gesture)}
+      />
+      <Slider
+        label="Intensity"
+        min={0}
+        max={5}
+        hardMax={1e9}
+        digits={3}
+        value={environment.intensity}
+        onChange={(value, gesture) => edit([["/environment/intensity", value]], gesture)}
+      />
+      <Slider
+        label="Rotation"
+        unit="°"
+        min={-180}
+        max={180}
+        hardMin={-36000}
+        hardMax={36000}
+        digits={1}
+        initial={0}
+        disabled={!environment.image}
+        value={environment.rotation_deg}
+        onChange={(value, gesture) => edit([["/environment/rotation_deg", value]], gesture)}
+      />
+      <Toggle
+        label="Turns with the camera"
+        value={environment.attached_to === "camera"}
+        disabled={!environment.image}
+        onChange={(on) => edit([["/environment/attached_to", on ? "camera" : "world"]])}
+      />
+      <Toggle
+        label="Ambient"
+        hint="Adds unshadowed light everywhere. Not physical."
+        value={environment.ambient}
+        onChange={(on) => edit([["/environment/ambient", on]])}
+      />
+    </>
+  );
+}
+
+/** What is seen where the volume is not. */
+export function BackgroundFields({ of }: { of: Scene }) {
+  const background = of.background;
+  if (!background) return null;
+  return (
+    <>
+      <Segmented
+        label="Show"
+        value={background.kind}
+        options={[
+          { value: "color", label: "Color" },
+          { value: "environment", label: "Picture", hint: "The environment" },
+          { value: "transparent", label: "Nothing", hint: "The saved picture is transparent there" },
+        ]}
+        onChange={(kind) => edit([["/background/kind", kind]])}
+      />
+      {background.kind === "color" && (
+        <ColorField
+          label="Color"
+          value={toHex(background.color)}
+          onChange={(value, gesture) => edit([["/background/color", value]], gesture)}
+        />
+      )}
+      {background.kind === "environment" && (
+        <Slider
+          label="Blur"
+          unit="°"
+          min={0}
+          max={45}
+          digits={1}
+          value={of.camera.background_blur_deg}
+          onChange={(value, gesture) => edit([["/camera/background_blur_deg", value]], gesture)}
+        />
+      )}
+    </>
+  );
+}

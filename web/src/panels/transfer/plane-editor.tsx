@@ -1,0 +1,159 @@
+import { useEffect, useRef } from "preact/hooks";
+import { toHex } from "../../color";
+import { formatNumber, ticks, toPixel, toValue, type Span } from "../../model/axis";
+import { clamp } from "../../model/curve";
+import { addColumn, moveColumn, sampleRule } from "../../model/rules";
+import { newGesture } from "../../state/scene";
+import type { Rule, RuleColumn } from "../../state/scene-types";
+import { startDrag } from "../../ui/drag";
+import { useWidth } from "../../ui/use-width";
+import type { Domain } from "./domain";
+
+const height = 150;
+/** CSS px a sample of the map. */
+const cell = 4;
+/** As the curve editor's below it. */
+const margin = 9;
+
+/** A 2-D rule as a map: the first volume's value to the right, the second's upward; its columns are the lines. */
+export function PlaneEditor(props: {
+  rule: Rule;
+  span: Span;
+  along: Domain;
+  selected: number;
+  onSelect(column: number): void;
+  onChange(columns: RuleColumn[], gesture: string): void;
+  materialColor(name: string): string;
+}) {
+  const { rule, span, along, selected } = props;
+  const frame = useRef<HTMLDivElement>(null);
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const width = useWidth(frame, 292);
+  const keyGesture = useRef("");
+  const { columns } = rule;
+  const discrete = rule.column_form === "points";
+  const limits: Span = columns.reduce(
+    (all, column) => ({ lo: Math.min(all.lo, column.at), hi: Math.max(all.hi, column.at) }),
+    along.span,
+  );
+  const y = (at: number) => height - 8 - toPixel(limits, height - 16, at);
+  const atPixel = (pixel: number) => {
+    const at = clamp(toValue(limits, height - 16, height - 8 - pixel), limits.lo, limits.hi);
+    return discrete ? Math.round(at) : at;
+  };
+  const gap = discrete ? 1 : (limits.hi - limits.lo) / 2000;
+
+  useEffect(
+    () => drawMap(canvas.current!, rule, span, (row) => atPixel(row), props.materialColor),
+    [rule, span, limits.lo, limits.hi, width],
+  );
+
+  const add = (event: MouseEvent) => {
+    const pixel = event.clientY - frame.current!.getBoundingClientRect().top;
+    const added = addColumn(columns, atPixel(pixel));
+    props.onChange(added.columns, newGesture("add-column"));
+    props.onSelect(added.selected);
+  };
+  const drag = (event: PointerEvent, index: number) => {
+    props.onSelect(index);
+    const gesture = newGesture("column");
+    const from = y(columns[index]!.at);
+    startDrag(event, {
+      move: ({ dy }) => props.onChange(moveColumn(columns, index, atPixel(from + dy), gap), gesture),
+    });
+  };
+  const keyDown = (event: KeyboardEvent, index: number) => {
+    const upward = { ArrowUp: 1, ArrowDown: -1 }[event.key];
+    if (event.key === "Delete" && columns.length > 1) {
+      props.onChange(
+        columns.filter((_, i) => i !== index),
+        newGesture("delete-column"),
+      );
+      props.onSelect(Math.max(0, index - 1));
+    } else if (upward) {
+      if (!event.repeat) keyGesture.current = newGesture("column-key");
+      const step = (discrete ? 1 : (limits.hi - limits.lo) / 100) * (event.shiftKey ? 10 : 1);
+      props.onChange(moveColumn(columns, index, columns[index]!.at + upward * step, gap), keyGesture.current);
+    } else {
+      return;
+    }
+    event.preventDefault();
+    event.stopPropagation();
+  };
+
+  const levels = ticks(limits, 4);
+  const resolution = levels.length > 1 ? (levels[1]! - levels[0]!) / 2 : 1;
+  return (
+    <div ref={frame} class="plane-editor">
+      <canvas
+        ref={canvas}
+        width={Math.ceil(width / cell)}
+        height={Math.ceil(height / cell)}
+        style={{ width, height }}
+      />
+      <svg
+        width={width}
+        height={height}
+        role="group"
+        aria-label="Columns of the rule. Double-click to add one."
+        onDblClick={add}
+      >
+        {levels.map((level) => (
+          <text key={level} x={3} y={y(level) + 3}>
+            {formatNumber(level, resolution)}
+          </text>
+        ))}
+        {columns.map((column, i) => (
+          <g key={i} class={i === selected ? "column selected" : "column"}>
+            <line x1={0} x2={width} y1={y(column.at)} y2={y(column.at)} />
+            <line
+              class="hit"
+              x1={0}
+              x2={width}
+              y1={y(column.at)}
+              y2={y(column.at)}
+              tabindex={0}
+              role="button"
+              aria-pressed={i === selected}
+              aria-label={`Column at ${formatNumber(column.at, resolution / 10)}`}
+              onFocus={() => props.onSelect(i)}
+              onPointerDown={(event) => drag(event, i)}
+              onDblClick={(event) => event.stopPropagation()}
+              onKeyDown={(event) => keyDown(event, i)}
+            />
+            {column.points.map((p, k) => (
+              <circle key={k} cx={margin + toPixel(span, width - 2 * margin, p.value)} cy={y(column.at)} r={2.5} />
+            ))}
+          </g>
+        ))}
+      </svg>
+    </div>
+  );
+}
+
+function drawMap(
+  canvas: HTMLCanvasElement,
+  rule: Rule,
+  span: Span,
+  alongAt: (pixel: number) => number,
+  materialColor: (name: string) => string,
+): void {
+  const context = canvas.getContext("2d")!;
+  const { width, height: rows } = canvas;
+  context.clearRect(0, 0, width, rows);
+  for (let row = 0; row < rows; ++row) {
+    const along = alongAt((row + 0.5) * cell);
+    for (let column = 0; column < width; ++column) {
+      const swatch = sampleRule(
+        rule,
+        toValue(span, width * cell - 2 * margin, (column + 0.5) * cell - margin),
+        along,
+        materialColor,
+      );
+      if (!swatch || swatch.opacity <= 0) continue;
+      context.globalAlpha = 0.15 + 0.85 * swatch.opacity ** 0.5;
+      context.fillStyle = toHex({ linear: swatch.color });
+      context.fillRect(column, row, 1, 1);
+    }
+  }
+}

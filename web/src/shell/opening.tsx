@@ -1,0 +1,95 @@
+import { signal } from "@preact/signals";
+import { link } from "../state/connection";
+import { openPath, scene } from "../state/scene";
+import { hello, status } from "../state/session";
+import { Button } from "../ui/controls";
+import { Dialog } from "../ui/dialog";
+import { Icon } from "../ui/icons";
+import { FileBrowser } from "./file-browser";
+import { pickFiles, upload } from "./files";
+
+/** Choosing what to open: as a whole screen while nothing is, and as a dialog later. */
+
+export const openDialog = signal(false);
+
+function Choices({ onOpen }: { onOpen?(): void }) {
+  const samples = hello.value?.samples ?? [];
+  const choose = (path: string) => {
+    openPath(path);
+    onOpen?.();
+  };
+  return (
+    <div class={samples.length > 0 ? "choices" : "choices single"}>
+      {samples.length > 0 && (
+        <section aria-label="Samples">
+          <h3>Samples</h3>
+          <div class="samples">
+            {samples.map((sample) => (
+              <button key={sample.path} type="button" class="sample" onClick={() => choose(sample.path)}>
+                <strong>{sample.name}</strong>
+                <span>{sample.summary}</span>
+              </button>
+            ))}
+          </div>
+        </section>
+      )}
+      <section aria-label="Files on the viewer's machine">
+        <h3>Files where the viewer runs</h3>
+        <FileBrowser onOpen={onOpen} />
+      </section>
+    </div>
+  );
+}
+
+function FromHere({ onOpen }: { onOpen?(): void }) {
+  const pick = () => {
+    pickFiles();
+    onOpen?.();
+  };
+  return (
+    <div class="from-here">
+      <Icon name="upload" />
+      <span>Drop a volume or scene anywhere on this page, or</span>
+      <Button onClick={pick}>choose a file</Button>
+    </div>
+  );
+}
+
+export function OpenDialog() {
+  if (!openDialog.value) return null;
+  const close = () => (openDialog.value = false);
+  return (
+    <Dialog title="Open" wide onClose={close}>
+      <Choices onOpen={close} />
+      <FromHere onOpen={close} />
+    </Dialog>
+  );
+}
+
+/** The first minute: what there is to open. Also says why the last try failed. */
+export function OpeningScreen() {
+  const stage = status.value.stage;
+  const busy = stage === "reading" || stage === "preparing" || upload.value;
+  if (scene.value || busy || link.value.kind !== "open" || !hello.value) return null;
+  return (
+    <div class="opening floating">
+      <div class="opening-inner">
+        <h1>Open a volume</h1>
+        <p class="lead">
+          CT, MRI, microscopy or simulation data: NRRD, NIfTI, MetaImage, DICOM folders, TIFF, VTK, HDF5, OpenVDB.
+        </p>
+        {stage === "failed" && (
+          <div class="failed-note" role="alert">
+            <Icon name="warning" />
+            <div>
+              <strong>{status.value.what ?? "It"} could not be opened</strong>
+              <p>{status.value.message}</p>
+            </div>
+          </div>
+        )}
+        <Choices />
+        <FromHere />
+      </div>
+    </div>
+  );
+}

@@ -1,0 +1,34 @@
+import type { SliceHeader } from "../model/slice";
+
+/** A plane's samples, as /api/slice gives them. */
+export interface Slice {
+  header: SliceHeader;
+  samples: Uint16Array;
+}
+
+/** Enough to scroll back and forth without asking again. */
+const kKept = 96;
+const kept = new Map<string, Slice>();
+
+/** What is kept is of a volume that is not open any more. */
+export function forgetSlices(): void {
+  kept.clear();
+}
+
+/** The plane across `axis` at `mm`, of the data or of a proxy (`of`). Throws Error with the server's line of text. */
+export async function fetchSlice(axis: "x" | "y" | "z", mm: number, of: string, signal: AbortSignal): Promise<Slice> {
+  const path = `api/slice?axis=${axis}&mm=${mm.toFixed(3)}${of ? `&of=${encodeURIComponent(of)}` : ""}`;
+  const known = kept.get(path);
+  if (known) return known;
+  const response = await fetch(path, { signal });
+  if (!response.ok) throw new Error((await response.text()).trim());
+  const header = JSON.parse(response.headers.get("X-Slice") ?? "null") as SliceHeader | null;
+  if (!header) throw new Error(`${path}: no X-Slice header`);
+  const bytes = await response.arrayBuffer();
+  const view = new DataView(bytes);
+  const samples = Uint16Array.from({ length: header.width * header.height }, (_, i) => view.getUint16(2 * i, true));
+  const slice = { header, samples };
+  kept.set(path, slice);
+  if (kept.size > kKept) kept.delete(kept.keys().next().value!);
+  return slice;
+}

@@ -1,0 +1,158 @@
+import type { Scene, Vec3 } from "./scene-types";
+
+/** The messages of docs/viewer-protocol.md. */
+
+/** A JSON pointer into the scene and its new value; null removes. */
+export type Assignment = readonly [pointer: string, value: unknown];
+
+export type PageMessage =
+  | { type: "edit"; seq: number; set: readonly Assignment[]; gesture?: string }
+  | { type: "undo" }
+  | { type: "redo" }
+  | { type: "load"; scene: unknown }
+  | { type: "open"; path: string }
+  | { type: "split"; at: number | null }
+  | { type: "seek"; time_s: number | null }
+  | { type: "probe"; id: number; x: number; y: number }
+  | { type: "export"; file: string }
+  | { type: "cancel_export" }
+  | { type: "shown"; frame: number };
+
+export interface Named {
+  name: string;
+  summary: string;
+}
+
+export interface Hello {
+  type: "hello";
+  version: string;
+  presets: Named[];
+  materials: (Named & { color: string })[];
+  denoisers: Named[];
+  environments: { name: string; path: string }[];
+  samples: (Named & { path: string })[];
+  folder: string;
+}
+
+export interface SceneMessage {
+  type: "scene";
+  revision: number;
+  scene: Scene;
+  can_undo: boolean;
+  can_redo: boolean;
+}
+
+export interface Edited {
+  type: "edited";
+  revision: number;
+  seq?: number;
+  sections: Record<string, unknown>;
+  can_undo: boolean;
+  can_redo: boolean;
+}
+
+export interface Refused {
+  type: "refused";
+  seq: number;
+  where: string;
+  message: string;
+}
+
+export interface Status {
+  type: "status";
+  stage: "empty" | "reading" | "preparing" | "ready" | "failed";
+  what?: string;
+  message?: string;
+  /** 0 to 1, where known. */
+  share?: number;
+}
+
+export interface Trouble {
+  type: "trouble";
+  message: string;
+}
+
+export interface Progress {
+  type: "progress";
+  spp: number;
+  noise: number | null;
+  remaining_s: number | null;
+  samples_per_s: number;
+}
+
+export interface Probe {
+  type: "probe";
+  id: number;
+  hit: boolean;
+  position_mm?: Vec3;
+  voxel?: Vec3;
+  value?: number;
+  labels?: { of: string; value: number; name: string }[];
+}
+
+export interface ExportState {
+  type: "export";
+  state: "running" | "done" | "failed" | "cancelled";
+  frames_done: number;
+  frames: number;
+  file: string;
+  message?: string;
+}
+
+export interface Split {
+  type: "split";
+  at: number | null;
+}
+
+export interface Viewers {
+  type: "viewers";
+  count: number;
+}
+
+export type ServerMessage =
+  | Hello
+  | SceneMessage
+  | Edited
+  | Refused
+  | Status
+  | Trouble
+  | Progress
+  | Probe
+  | ExportState
+  | Split
+  | Viewers;
+
+/** The camera of a picture. half_width and half_height are tangents (perspective) or mm (orthographic). */
+export interface FrameCamera {
+  eye_mm: Vec3;
+  right: Vec3;
+  up: Vec3;
+  forward: Vec3;
+  half_width: number;
+  half_height: number;
+  orthographic: boolean;
+}
+
+export type Limit = "tracing" | "denoising" | "compiling" | "developing" | "nothing";
+
+/** What precedes a picture in a binary frame. */
+export interface FrameHeader {
+  frame: number;
+  revision: number;
+  moving: boolean;
+  format: "jpeg" | "png";
+  width: number;
+  height: number;
+  full: readonly [number, number];
+  spp: number;
+  noise: number | null;
+  done: boolean;
+  frame_s: number;
+  compile_s: number;
+  trace_s: number;
+  denoise_s: number;
+  develop_s: number;
+  fps: number;
+  limit: Limit;
+  camera: FrameCamera;
+}

@@ -1,0 +1,57 @@
+/** Dragging with the pointer captured, so that it goes on outside the element. */
+
+export interface Drag {
+  /** From where the pointer went down [CSS px]. */
+  dx: number;
+  dy: number;
+  /** Since the last call. */
+  stepX: number;
+  stepY: number;
+  event: PointerEvent;
+}
+
+export interface DragHandlers {
+  move(drag: Drag): void;
+  /** Pointer up, or the drag was broken off. */
+  end?(drag: Drag): void;
+}
+
+/** Starts a drag from a pointerdown event: use as `onPointerDown={(e) => startDrag(e, {...})}`. Only the primary button
+ * (touch, pen) unless `buttons` says others. */
+export function startDrag(down: PointerEvent, handlers: DragHandlers, buttons: readonly number[] = [0]): void {
+  if (!buttons.includes(down.button)) return;
+  const element = down.currentTarget as Element;
+  element.setPointerCapture(down.pointerId);
+  down.preventDefault();
+  down.stopPropagation();
+  if (element instanceof HTMLElement || element instanceof SVGElement) element.focus({ preventScroll: true });
+  let lastX = down.clientX;
+  let lastY = down.clientY;
+  const drag = (event: PointerEvent): Drag => {
+    const out = {
+      dx: event.clientX - down.clientX,
+      dy: event.clientY - down.clientY,
+      stepX: event.clientX - lastX,
+      stepY: event.clientY - lastY,
+      event,
+    };
+    lastX = event.clientX;
+    lastY = event.clientY;
+    return out;
+  };
+  const move = (event: Event) => {
+    const pointer = event as PointerEvent;
+    if (pointer.pointerId === down.pointerId) handlers.move(drag(pointer));
+  };
+  const end = (event: Event) => {
+    const pointer = event as PointerEvent;
+    if (pointer.pointerId !== down.pointerId) return;
+    element.removeEventListener("pointermove", move);
+    element.removeEventListener("pointerup", end);
+    element.removeEventListener("pointercancel", end);
+    handlers.end?.(drag(pointer));
+  };
+  element.addEventListener("pointermove", move);
+  element.addEventListener("pointerup", end);
+  element.addEventListener("pointercancel", end);
+}

@@ -1,0 +1,41 @@
+import { signal } from "@preact/signals";
+import { Icon } from "./icons";
+
+/** Short messages at the lower edge of the page. */
+
+export interface Toast {
+  text: string;
+  tone?: "info" | "warning" | "error";
+}
+
+const shownToasts = signal<(Toast & { id: number })[]>([]);
+let toasts = 0;
+const kShown_ms = 5000;
+const kErrorShown_ms = 12000;
+
+/** Shows a message for some seconds; the same text again renews it. */
+export function showToast(toast: Toast): void {
+  const id = ++toasts;
+  shownToasts.value = [...shownToasts.value.filter((other) => other.text !== toast.text), { ...toast, id }].slice(-4);
+  setTimeout(() => dismiss(id), toast.tone === "error" ? kErrorShown_ms : kShown_ms);
+}
+
+function dismiss(id: number): void {
+  shownToasts.value = shownToasts.value.filter((toast) => toast.id !== id);
+}
+
+export function Toasts() {
+  return (
+    <div class="toasts" role="status" aria-live="polite">
+      {shownToasts.value.map((toast) => (
+        <div key={toast.id} class={`toast ${toast.tone ?? "info"}`}>
+          {toast.tone && toast.tone !== "info" && <Icon name="warning" />}
+          <span>{toast.text}</span>
+          <button type="button" aria-label="Dismiss" onClick={() => dismiss(toast.id)}>
+            <Icon name="close" size={12} />
+          </button>
+        </div>
+      ))}
+    </div>
+  );
+}
