@@ -308,6 +308,10 @@ std::shared_ptr<const std::string> SharedView::thumbnail(const std::string& pres
   return thumbnails_.find(preset, *volume_, scene);
 }
 
+std::filesystem::path SharedView::temporary_file(const std::string& extension) {
+  return settings_.temporary / (std::to_string(++temporary_files_) + extension);
+}
+
 void SharedView::work(std::function<void()> job) { boost::asio::post(workers_, std::move(job)); }
 
 void SharedView::set_status(const std::string& stage, const std::string& name, const std::string& message) {
