@@ -213,7 +213,7 @@ void SharedView::take(Viewer&, const LoadMessage& message) {
 
 void SharedView::take(Viewer&, const OpenMessage& message) {
   if (message.path == kPhantomPath) return open(fresh_scene(std::string(kPhantomPath)));
-  const std::filesystem::path path = roots_.resolve(message.path);
+  const std::filesystem::path path = roots_.resolve_to_open(message.path);
   if (lower_extension(path) != ".json") return open(fresh_scene(path.string()));
   SceneDescription scene = read_scene(path);
   roots_.resolve_paths(scene);

@@ -126,16 +126,21 @@ TEST_F(Http, UploadsAreOpenedByTheirPath) {
   EXPECT_EQ(json::parse(get(at, "/api/volume").body)["name"], "sent.nrrd");
 }
 
-TEST_F(Http, UploadsOfOneNameReplaceOneAnother) {
+TEST_F(Http, UploadsAreNeverReplaced) {
   const Address& at = start();
-  std::string path;
-  for (const char* text : {"first", "second"}) {
-    const Answer sent = ask(at, {.method = "PUT", .path = "/api/upload?name=a%20b.txt", .body = text});
-    path = json::parse(sent.body)["path"];
-  }
-  EXPECT_EQ(read_bytes(path), "second");
+  const auto put = [&](const std::string& name, const std::string& text) {
+    return fs::path(
+        json::parse(ask(at, {.method = "PUT", .path = "/api/upload?name=" + name, .body = text}).body)["path"]
+            .get<std::string>());
+  };
+  const fs::path head = put("a%20b.mhd", "first"), data = put("a.raw", "voxels");
+  EXPECT_EQ(head.filename(), "a b.mhd");
+  EXPECT_EQ(head.parent_path(), data.parent_path());
+  const fs::path second = put("a%20b.mhd", "second");
+  EXPECT_EQ(read_bytes(head), "first");
+  EXPECT_EQ(read_bytes(second), "second");
   stop();
-  EXPECT_FALSE(fs::exists(path));
+  EXPECT_FALSE(fs::exists(head));
 }
 
 TEST_F(Http, UploadNamesDoNotEscape) {
@@ -174,7 +179,8 @@ TEST_F(Http, AnUploadThatBreaksOffLeavesNothing) {
            "\r\nContent-Length: 1000000\r\n\r\nonly this",
        0.3);
   const Answer whole = ask(at, {.method = "PUT", .path = "/api/upload?name=whole", .body = "all"});
-  const fs::path uploads = fs::path(json::parse(whole.body)["path"].get<std::string>()).parent_path();
+  const fs::path uploads =
+      fs::path(json::parse(whole.body)["path"].get<std::string>()).parent_path().parent_path();
   // The server may hear of the end a moment later.
   for (int i = 0; i < 200 && std::distance(fs::directory_iterator(uploads), {}) > 1; ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(20));

@@ -84,6 +84,33 @@ TEST_F(RootsTest, SingleFilesCanBeAdded) {
   EXPECT_THROW(roots.resolve("../root-other/c"), Error);
 }
 
+TEST_F(RootsTest, VoxelsThatAHeaderNamesAreInsideToo) {
+  const Roots roots(root_);
+  write_bytes(root_ / "v.raw", "v");
+  const auto opens = [&](const std::string& text) {
+    write_bytes(root_ / "h", text);
+    try {
+      roots.resolve_to_open("h");
+      return true;
+    } catch (const Error&) {
+      return false;
+    }
+  };
+  EXPECT_TRUE(opens("ObjectType = Image\nElementDataFile = LOCAL\n/etc/passwd"));
+  EXPECT_TRUE(opens("ObjectType = Image\nElementDataFile = v.raw\n"));
+  EXPECT_TRUE(opens("NRRD0004\ndata file: sub/../v.raw\r\n\n"));
+  EXPECT_TRUE(opens("NRRD0004\ntype: int16\n\n"));
+  EXPECT_TRUE(opens("NRRD0004\ndata file: LIST\nv.raw\nsub/b.nrrd\n"));
+  EXPECT_FALSE(opens("NRRD0004\ndata file: LIST 2\nv.raw\n/etc/passwd\n"));
+  EXPECT_FALSE(opens("NRRD0004\ndata file: ../secret-%d 1 2 1\n\n"));
+  EXPECT_TRUE(opens(""));
+  for (const char* outside : {"/etc/passwd", "../secret", "out", "sub/../../secret", " \"/etc/passwd\""}) {
+    EXPECT_FALSE(opens("ObjectType = Image\nElementDataFile = " + std::string(outside) + "\n")) << outside;
+    EXPECT_FALSE(opens("NRRD0004\ndata file: " + std::string(outside) + "\n\n")) << outside;
+    EXPECT_FALSE(opens("NRRD0004\nDatafile:" + std::string(outside) + "\n\n")) << outside;
+  }
+}
+
 TEST_F(RootsTest, PathsOfAScene) {
   const Roots roots(root_);
   SceneDescription scene;
