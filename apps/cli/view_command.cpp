@@ -81,16 +81,16 @@ int view(const ViewRequest& request) {
   options.page = server::PageFiles::find(program);
   options.most_upload_bytes = static_cast<std::uint64_t>(request.max_upload_gb * 1e9);
   options.live.threads = request.threads;
+  server::Server server(options);
   if (!server::is_loopback(request.address))
     fmt::print(stderr,
                "warning: listening at {}: whoever has the address that is printed below can see and change "
                "the picture and read the files of the folder, and nothing is encrypted on its way\n",
                request.address);
-  server::serve(options, [&](const std::string& url) {
-    fmt::print("{}\n", url);
-    std::fflush(stdout);
-    if (!request.no_open) open_browser(url);
-  });
+  fmt::print("{}\n", server.url());
+  std::fflush(stdout);
+  if (!request.no_open) open_browser(server.url());
+  server.run();
   return kDone;
 }
 

@@ -20,6 +20,7 @@ class Access {
   Access(std::string token, std::string bound_to, unsigned short port);
 
   const std::string& token() const { return token_; }
+  const std::string& address() const { return bound_to_; }
   const std::string& cookie_name() const { return cookie_name_; }
   /// The header that makes a browser keep the token.
   std::string set_cookie() const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "scene/scene_file.h"
+#include "server/header_files.h"
 #include "voxlume/error.h"
 
 namespace voxlume::server {
@@ -45,9 +46,22 @@ fs::path Roots::resolve(const std::string& text) const {
   return canonical;
 }
 
+fs::path Roots::resolve_to_open(const std::string& text) const {
+  const fs::path path = resolve(text);
+  std::error_code failed;
+  if (!fs::is_regular_file(path, failed)) return path;
+  for (const std::string& name : files_named_in_header(path)) {
+    const fs::path data = fs::weakly_canonical(path.parent_path() / name, failed);
+    if (failed || !contains(data))
+      throw Error(ErrorCode::kBadParameter, text,
+                  "its voxels are in a file outside the folders of this viewer");
+  }
+  return path;
+}
+
 void Roots::resolve_paths(SceneDescription& scene, const std::set<std::string>& trusted) const {
   for_each_path(scene, [&](std::string& path) {
-    if (!trusted.contains(path)) path = resolve(path).string();
+    if (!trusted.contains(path)) path = resolve_to_open(path).string();
   });
 }
 

@@ -26,8 +26,12 @@ class Roots {
   /// where there is no file or folder. What is outside gets the same answer whether it exists or not.
   std::filesystem::path resolve(const std::string& text) const;
 
-  /// Makes every path of `scene` absolute and canonical by resolve(). Paths that `trusted` has as they are
-  /// stay so. Throws Error, those of resolve().
+  /// The same for a file that is to be opened: what its header names as the file of its voxels must be inside
+  /// as well.
+  std::filesystem::path resolve_to_open(const std::string& text) const;
+
+  /// Makes every path of `scene` absolute and canonical by resolve_to_open(). Paths that `trusted` has as
+  /// they are stay so. Throws Error, those of resolve().
   void resolve_paths(SceneDescription& scene, const std::set<std::string>& trusted = {}) const;
 
  private:

@@ -190,8 +190,7 @@ void Routes::picture(const std::string& extension, const Respond& respond) const
   view_.with_still_picture([this, extension, respond](std::shared_ptr<const LiveFrame> frame) {
     if (!frame || view_.document() == nullptr)
       return respond(error_reply(Status::service_unavailable, "the picture is not there yet; ask again"));
-    static int count = 0;  // of one thread
-    const auto file = view_.temporary() / ("picture-" + std::to_string(++count) + extension);
+    const auto file = view_.temporary_file(extension);
     work(respond, [frame, file, scene = view_.document()->scene(), extension] {
       save_picture(*frame->linear, scene, file);
       Reply reply;

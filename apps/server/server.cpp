@@ -5,6 +5,7 @@
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
 #include <boost/asio/signal_set.hpp>
 #include <boost/asio/steady_timer.hpp>
 
@@ -103,47 +104,81 @@ std::string url_host(const std::string& address) {
   return address.find(':') == std::string::npos ? address : "[" + address + "]";
 }
 
+SharedView::Settings view_settings(const ServerOptions& options, const std::filesystem::path& temporary) {
+  return {.live = options.live,
+          .samples = find_samples(options.samples),
+          .environments = options.samples.empty() ? "" : options.samples / "env",
+          .program = options.program,
+          .temporary = temporary};
+}
+
 }  // namespace
 
-void serve(const ServerOptions& options, const std::function<void(const std::string&)>& started) {
-  asio::io_context io(1);
-  tcp::acceptor acceptor = listen(io, options.address, options.port);
-  const unsigned short port = acceptor.local_endpoint().port();
-  const Access access(make_token(), options.address, port);
-  TemporaryFolder temporary;
-  Uploads uploads(temporary.path() / "uploads", options.most_upload_bytes);
-  SharedView view(io,
-                  {.live = options.live,
-                   .samples = find_samples(options.samples),
-                   .environments = options.samples.empty() ? "" : options.samples / "env",
-                   .program = options.program,
-                   .temporary = temporary.path()},
-                  allowed_roots(options, temporary.path() / "uploads"));
-  const Routes routes(view, PageFiles(options.page));
-  Listener listener(std::move(acceptor), {access, view, routes, uploads});
+struct Server::Parts {
+  Parts(asio::io_context& context, const ServerOptions& options, tcp::acceptor acceptor)
+      : io(context),
+        port(acceptor.local_endpoint().port()),
+        access(make_token(), options.address, port),
+        uploads(temporary.path() / "uploads", options.most_upload_bytes),
+        view(io, view_settings(options, temporary.path()),
+             allowed_roots(options, temporary.path() / "uploads")),
+        routes(view, PageFiles(options.page)),
+        listener(std::move(acceptor), {access, view, routes, uploads}) {}
 
-  asio::signal_set signals(io, SIGINT, SIGTERM);
-  if (!is_ignored(SIGHUP)) signals.add(SIGHUP);  // nohup ignores it
-  asio::steady_timer farewell(io);
-  signals.async_wait([&](error_code, int) {
-    signals.clear();  // the next one ends the process
+  void say_goodbye() {
     listener.close();
     view.close();
-    farewell.expires_after(std::chrono::milliseconds(300));
-    farewell.async_wait([&](error_code) { io.stop(); });
-  });
+    farewell.expires_after(std::chrono::milliseconds(150));
+    farewell.async_wait([this](error_code) { io.stop(); });
+  }
 
+  asio::io_context& io;
+  TemporaryFolder temporary;
+  const unsigned short port;
+  const Access access;
+  Uploads uploads;
+  SharedView view;
+  const Routes routes;
+  Listener listener;
+  asio::signal_set signals{io, SIGINT, SIGTERM};
+  asio::steady_timer farewell{io};
+};
+
+Server::Server(const ServerOptions& options)
+    : io_(std::make_unique<asio::io_context>(1)),
+      parts_(std::make_unique<Parts>(*io_, options, listen(*io_, options.address, options.port))) {
+  Parts& parts = *parts_;
+  if (!is_ignored(SIGHUP)) parts.signals.add(SIGHUP);  // nohup ignores it
+  parts.signals.async_wait([&parts](error_code failed, int) {
+    if (failed) return;
+    parts.signals.clear();  // the next one ends the process
+    parts.say_goodbye();
+  });
   if (options.scene) {
     SceneDescription scene = *options.scene;
-    view.roots().resolve_paths(scene);
-    view.open(scene);
+    parts.view.roots().resolve_paths(scene);
+    parts.view.open(scene);
   }
-  listener.accept();
-  started("http://" + url_host(options.address) + ":" + std::to_string(port) + "/?token=" + access.token());
-  io.run();
+  parts.listener.accept();
+}
+
+Server::~Server() = default;
+
+std::string Server::url() const {
+  const Access& access = parts_->access;
+  return "http://" + url_host(access.address()) + ":" + std::to_string(parts_->port) +
+         "/?token=" + access.token();
+}
+
+void Server::run() {
+  io_->run();
   // What is being read now may take a while to end; the files need not wait for it.
-  view.end();
-  temporary.remove();
+  parts_->view.end();
+  parts_->temporary.remove();
+}
+
+void Server::stop() {
+  asio::post(*io_, [this] { parts_->say_goodbye(); });
 }
 
 }  // namespace voxlume::server

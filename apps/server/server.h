@@ -1,7 +1,8 @@
 #pragma once
+#include <boost/asio/io_context.hpp>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -22,8 +23,26 @@ struct ServerOptions {
   LiveOptions live;
 };
 
-/// Serves the viewer until SIGINT or SIGTERM. `started` gets the address to open once it can be opened. A
-/// second signal ends the process. Throws Error kBadParameter where the address cannot be listened at.
-void serve(const ServerOptions& options, const std::function<void(const std::string& url)>& started);
+/// The viewer's server. One thread runs it; the volume's session, the reader of volumes and some workers have
+/// threads of their own.
+class Server {
+ public:
+  /// Listens, and begins to open the scene. Throws Error: kBadParameter where the address cannot be listened
+  /// at, kFileNotFound where there is no such folder.
+  explicit Server(const ServerOptions& options);
+  ~Server();
+
+  /// The address to open, with its token.
+  std::string url() const;
+  /// Serves until stop(), SIGINT, SIGTERM or SIGHUP; a second signal ends the process. Call once.
+  void run();
+  /// Any thread.
+  void stop();
+
+ private:
+  struct Parts;
+  const std::unique_ptr<boost::asio::io_context> io_;
+  const std::unique_ptr<Parts> parts_;
+};
 
 }  // namespace voxlume::server

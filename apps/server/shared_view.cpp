@@ -213,7 +213,7 @@ void SharedView::take(Viewer&, const LoadMessage& message) {
 
 void SharedView::take(Viewer&, const OpenMessage& message) {
   if (message.path == kPhantomPath) return open(fresh_scene(std::string(kPhantomPath)));
-  const std::filesystem::path path = roots_.resolve(message.path);
+  const std::filesystem::path path = roots_.resolve_to_open(message.path);
   if (lower_extension(path) != ".json") return open(fresh_scene(path.string()));
   SceneDescription scene = read_scene(path);
   roots_.resolve_paths(scene);
@@ -306,6 +306,10 @@ void SharedView::hand_out_stills(const std::shared_ptr<const LiveFrame>& frame) 
 std::shared_ptr<const std::string> SharedView::thumbnail(const std::string& preset) {
   const SceneDescription& scene = open_document().scene();
   return thumbnails_.find(preset, *volume_, scene);
+}
+
+std::filesystem::path SharedView::temporary_file(const std::string& extension) {
+  return settings_.temporary / (std::to_string(++temporary_files_) + extension);
 }
 
 void SharedView::work(std::function<void()> job) { boost::asio::post(workers_, std::move(job)); }

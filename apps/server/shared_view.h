@@ -58,7 +58,8 @@ class SharedView {
   /// Null while none is open.
   const Document* document() const { return document_ ? &*document_ : nullptr; }
   const Exports& exports() const { return exports_; }
-  const std::filesystem::path& temporary() const { return settings_.temporary; }
+  /// A name for a file that is removed at the latest at the end; another one every time.
+  std::filesystem::path temporary_file(const std::string& extension);
 
   /// The picture of a preset; null while it is not drawn. Throws Error, those of Thumbnails::find() and of
   /// nothing being open.
@@ -116,6 +117,7 @@ class SharedView {
   Json status_;
   std::optional<std::pair<int, int>> screen_size_;  ///< what a page asked for last
   std::optional<double> split_, seek_s_;
+  int temporary_files_ = 0;
   std::vector<std::function<void(std::shared_ptr<const LiveFrame>)>> awaiting_still_;
   boost::asio::steady_timer still_timer_;
   Thumbnails thumbnails_;

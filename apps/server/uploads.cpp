@@ -30,9 +30,10 @@ Uploads::Uploads(fs::path folder, std::uint64_t most_bytes)
 std::uint64_t Uploads::room() const {
   std::uint64_t used = 0;
   std::error_code failed;
-  for (auto it = fs::directory_iterator(folder_, failed); !failed && it != fs::directory_iterator();
-       it.increment(failed)) {
+  for (auto it = fs::recursive_directory_iterator(folder_, failed);
+       !failed && it != fs::recursive_directory_iterator(); it.increment(failed)) {
     std::error_code gone;
+    if (!it->is_regular_file(gone)) continue;
     const auto bytes = it->file_size(gone);
     if (!gone) used += bytes;
   }
@@ -60,9 +61,13 @@ Uploads::Incoming::~Incoming() {
 }
 
 fs::path Uploads::Incoming::finish() {
-  const fs::path whole = uploads_.folder_ / name_;
+  // Files that belong together, a header and its voxels, stay together when they are sent once more.
+  fs::path whole;
   std::error_code failed;
-  fs::rename(path_, whole, failed);
+  for (int number = 1; whole.empty() || fs::exists(whole, failed); ++number)
+    whole = uploads_.folder_ / std::to_string(number) / name_;
+  fs::create_directories(whole.parent_path(), failed);
+  if (!failed) fs::rename(path_, whole, failed);
   if (failed) throw Error(ErrorCode::kInternal, name_, failed.message());
   return whole;
 }

@@ -7,7 +7,8 @@
 
 namespace voxlume::server {
 
-/// Files that pages sent. They lie in one folder, together no larger than a limit.
+/// Files that pages sent, together no larger than a limit. What is there is never changed or replaced, as it
+/// may be open: of two files of one name the second lies in another folder.
 class Uploads {
  public:
   /// A file on its way; what it took is given back unless it is finished.
@@ -20,7 +21,7 @@ class Uploads {
 
     /// Where the bytes go until all are there.
     const std::filesystem::path& path() const { return path_; }
-    /// Puts the whole file in place, of another of that name too. Throws Error kInternal.
+    /// Puts the whole file in place. Throws Error kInternal.
     std::filesystem::path finish();
 
    private:

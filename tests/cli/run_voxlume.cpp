@@ -39,6 +39,8 @@ Process::Process(const std::vector<std::string>& arguments, const fs::path& fold
 
 void Process::signal(int number) const { ::kill(pid_, number); }
 
+std::string Process::output() const { return file_text(out_); }
+
 RunResult Process::wait() {
   int status = 0;
   ::waitpid(pid_, &status, 0);

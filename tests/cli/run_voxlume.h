@@ -17,6 +17,8 @@ class Process {
   /// Starts VOXLUME_BINARY in `folder`. Its standard input is empty.
   Process(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
   void signal(int number) const;
+  /// What it has written to standard output so far.
+  std::string output() const;
   /// Waits for the end; call once.
   RunResult wait();
 

@@ -75,7 +75,7 @@ class CliRefuses : public CliTest {
 
 TEST_F(CliRefuses, Usage) {
   expect_refused({
-      {{}, "no command; expected one of render, info"},
+      {{}, "no command; expected one of render, view, info"},
       {{"rendr", "x"}, "unknown command \"rendr\"; did you mean render?"},
       {{"--verzion"}, "unknown argument \"--verzion\"; did you mean --version?"},
       {{"render"}, "INPUT is required"},
@@ -154,8 +154,6 @@ TEST_F(CliRefuses, Values) {
 TEST_F(CliRefuses, WhatIsNotBuiltYetByName) {
   expect_refused({
       flags({"--denoise", "blur"}, "found \"blur\", expected one of none, decoupled, svgf"),
-      {{"view"}, "view is not built yet; available: render"},
-      {{"view", "ball.nrrd", "--port", "8080"}, "view is not built yet"},
   });
   EXPECT_EQ(render("ball.nrrd", "o.png", {"--visibility-lights", "off", "--denoise", "none"}).code, 0);
 }
