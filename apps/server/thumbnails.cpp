@@ -10,7 +10,7 @@ namespace voxlume::server {
 namespace {
 
 constexpr int kSide_px = 128;
-constexpr int kSpp = 8;
+constexpr int kSpp = 32;
 
 SceneDescription small_scene(SceneDescription scene, const std::string& preset) {
   scene.transfer.preset = preset;
