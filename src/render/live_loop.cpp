@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "base/parallel.h"
 #include "integrator/path_tracer.h"
@@ -50,7 +49,7 @@ bool same_matter(const SceneDescription& a, const SceneDescription& b) {
 
 void clear(RenderState& state) {
   for (const std::span<std::byte> sums : state.film.accumulators())
-    std::memset(sums.data(), 0, sums.size());
+    std::fill(sums.begin(), sums.end(), std::byte{0});  // some are empty
   state.counters = {};
   state.elapsed_s = 0;
 }
