@@ -6,31 +6,77 @@ import { join } from "node:path";
 import { startBrowser, startViewer } from "../../tools/viewer/chromium_page.mjs";
 
 const top = new URL("../../", import.meta.url).pathname;
-const program = process.env.VOXLUME_BINARY ?? `${top}build/release/voxlume`;
+export const program = process.env.VOXLUME_BINARY ?? `${top}build/release/voxlume`;
 
 /** The head CT, or the built-in phantom where the sample data is not there. */
 export const headCt = existsSync(`${top}data/head-ct.nrrd`) ? `${top}data/head-ct.nrrd` : "phantom";
 
+/** Not there without the sample data (./vx samples). */
+export const sample = (name) => (existsSync(`${top}data/${name}`) ? `${top}data/${name}` : null);
+export const missing = (...names) => (names.every(sample) ? false : "without the sample data");
+export const samples = `${top}data`;
+
+/** What most tests need of a picture, and no more. */
+export const quick = ["--spp", "4", "--denoise", "none"];
+
 let browser;
 
-/** A viewer and its page at 1280 x 720. Ends with the test `t`, which fails on errors of the page. */
-export async function open(t, args, { scheme = "dark", folder, environment } = {}) {
+/** In the page: what it and its server have said to each other, for Page.settled(). */
+function watchSocket() {
+  const seen = { edit: 0, answered: 0, scenes: 0, revision: 0, frames: [], shown: null };
+  window.seenBySocket = seen;
+  const Plain = window.WebSocket;
+  window.WebSocket = class extends Plain {
+    constructor(...args) {
+      super(...args);
+      this.addEventListener("message", (event) => {
+        if (typeof event.data !== "string") {
+          const length = new DataView(event.data).getUint32(0, true);
+          seen.frames.push(JSON.parse(new TextDecoder().decode(new Uint8Array(event.data, 4, length))));
+          return;
+        }
+        const message = JSON.parse(event.data);
+        if (message.type === "edited" || message.type === "scene") seen.revision = message.revision;
+        if (message.type === "scene") seen.scenes = 0;
+        if ((message.type === "edited" || message.type === "refused") && message.seq) seen.answered = message.seq;
+        if (message.type === "hello") Object.assign(seen, { edit: 0, answered: 0, scenes: 0, frames: [], shown: null });
+      });
+    }
+    send(text) {
+      const message = JSON.parse(text);
+      if (message.type === "edit") seen.edit = message.seq;
+      if (message.type === "undo" || message.type === "redo" || message.type === "load") ++seen.scenes;
+      if (message.type === "shown") seen.shown = seen.frames.findLast((header) => header.frame === message.frame);
+      super.send(text);
+    }
+  };
+}
+
+/** A viewer and its page. Ends with the test `t`, which fails on errors of the page. `args` may be a function of the
+ * test's own folder, which the viewer opens files of; `resolution` is the picture's pixels for each of the page. */
+export async function open(t, args, options = {}) {
+  const { scheme = "dark", folder, environment, size = [1280, 720], resolution = 0.5, touch = false } = options;
   browser ??= await startBrowser();
   const scratch = mkdtempSync(join(tmpdir(), "voxlume-page-"));
-  const viewer = await startViewer([...args, "--folder", folder ?? scratch], environment);
-  const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, colorScheme: scheme, acceptDownloads: true });
+  const viewer = await startViewer([...(typeof args === "function" ? args(scratch) : args), "--folder", folder ?? scratch], environment);
+  const [width, height] = size;
+  const context = await browser.newContext({ viewport: { width, height }, colorScheme: scheme, acceptDownloads: true, hasTouch: touch });
+  await context.grantPermissions(["clipboard-read", "clipboard-write"]);
+  await context.addInitScript(watchSocket);
+  await context.addInitScript((share) => location.protocol === "http:" && localStorage.setItem("voxlume.resolution", String(share)), resolution);
   const page = await context.newPage();
+  const out = new Page(page, viewer, scratch);
   const errors = [];
   page.on("pageerror", (error) => errors.push(error.message));
   t.after(async () => {
     await context.close();
-    const code = await viewer.end();
+    const code = await out.viewer.end();
     rmSync(scratch, { recursive: true, force: true });
     if (errors.length) throw new Error(`errors of the page: ${errors.join("; ")}`);
     if (code !== 0 && code !== null) throw new Error(`the viewer ended with ${code}`);
   });
   await page.goto(viewer.url);
-  return new Page(page, viewer, scratch);
+  return out;
 }
 
 export async function closeBrowser() {
@@ -66,9 +112,46 @@ class Page {
     throw new Error(`the scene never had ${what}`);
   }
 
-  /** Until a picture is there and done. */
+  /** Until the picture on the canvas is done and shows all that was edited, at the size of the view. */
   async done() {
-    await this.page.waitForFunction(() => /done$/.test(document.querySelector("[aria-label='Progress of the picture']")?.textContent ?? ""), undefined, { timeout: 60000 });
+    await this.page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+    await this.page.waitForFunction(() => {
+      const { edit, answered, scenes, revision, shown } = window.seenBySocket;
+      const view = document.querySelector(".view");
+      const share = JSON.parse(localStorage.getItem("voxlume.resolution"));
+      return shown?.done && !shown.moving && edit === answered && scenes === 0 && shown.revision >= revision &&
+        shown.full[0] === Math.max(64, Math.round(view.clientWidth * share)) && shown.full[1] === Math.max(64, Math.round(view.clientHeight * share));
+    }, undefined, { timeout: 60000 });
+  }
+
+  /** Until a further picture is on the canvas after `act`, and is done: for what changes the picture but not the scene. */
+  async newPicture(act) {
+    const before = (await this.header())?.frame ?? -1;
+    await act();
+    await this.page.waitForFunction((frame) => window.seenBySocket.shown?.frame > frame, before, { timeout: 60000 });
+    await this.done();
+  }
+
+  /** Loads a scene as the menu does with a file. */
+  async load(scene) {
+    await this.button("Scene file").click();
+    const [chooser] = await Promise.all([this.page.waitForEvent("filechooser"), this.page.getByRole("menuitem", { name: /Load scene/ }).click()]);
+    await chooser.setFiles({ name: "scene.json", mimeType: "application/json", buffer: Buffer.from(JSON.stringify(scene)) });
+  }
+
+  /** Header of the picture on the canvas. */
+  header() {
+    return this.page.evaluate(() => window.seenBySocket.shown);
+  }
+
+  /** What the status bar tells of the picture. */
+  progress() {
+    return this.page.getByLabel("Progress of the picture").innerText();
+  }
+
+  /** Undoes one step. */
+  async undo() {
+    await this.button("Undo").click();
   }
 
   /** What the canvas shows, a PNG file. */
@@ -126,4 +209,4 @@ export function writeBall(file) {
   return file;
 }
 
-export { readFileSync };
+export { readFileSync, startViewer };

@@ -13,10 +13,10 @@ export function chromiumPath() {
   return [named, "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find((p) => p && existsSync(p)) ?? null;
 }
 
-/** The program as a viewer; `url` opens it. `end()` is its Ctrl-C and gives its exit code. */
-export async function startViewer(args, environment = {}) {
+/** The program as a viewer; `url` opens it. `end()` is its Ctrl-C and gives its exit code. Port 0 is any that is free. */
+export async function startViewer(args, environment = {}, port = 0) {
   const program = process.env.VOXLUME_BINARY ?? `${top}build/release/voxlume`;
-  const child = spawn(program, ["view", "--no-open", "--port", "0", ...args], {
+  const child = spawn(program, ["view", "--no-open", "--port", `${port}`, ...args], {
     cwd: top,
     env: { ...process.env, VOXLUME_PAGE: `${top}build/web`, ...environment },
     stdio: ["ignore", "pipe", "inherit"],

@@ -1,5 +1,5 @@
 import { useEffect, useState } from "preact/hooks";
-import { connect, link } from "../state/connection";
+import { connect, link, type LinkState } from "../state/connection";
 import { frame } from "../state/frame";
 import { scene } from "../state/scene";
 import { status } from "../state/session";
@@ -96,15 +96,16 @@ export function OpenFailed() {
   );
 }
 
-/** Whether the server turned this browser away; it says so by HTTP only. */
-function useRefusal(lost: boolean): string {
+/** Whether the server turned this browser away; it says so by HTTP only. Asked at each failed attempt: a viewer that
+ * was started again at the same port has another token. */
+function useRefusal(state: LinkState): string {
   const [refusal, setRefusal] = useState("");
   useEffect(() => {
-    if (!lost) return setRefusal("");
+    if (state.kind !== "lost") return setRefusal("");
     fetch("api/files?path=")
-      .then(async (response) => response.status === 403 && setRefusal((await response.text()).trim()))
+      .then(async (response) => setRefusal(response.status === 403 ? (await response.text()).trim() : ""))
       .catch(() => undefined);
-  }, [lost]);
+  }, [state]);
   return refusal;
 }
 
@@ -112,7 +113,7 @@ function useRefusal(lost: boolean): string {
 export function ConnectionBanner() {
   const state = link.value;
   const lost = state.kind === "lost";
-  const refusal = useRefusal(lost);
+  const refusal = useRefusal(state);
   const [now, setNow] = useState(Date.now());
   useEffect(() => {
     if (!lost) return;

@@ -1,0 +1,75 @@
+// What outlives a page, or a viewer: links, pictures with all their light, and connections that end.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { join } from "node:path";
+import { after, test } from "node:test";
+import { closeBrowser, headCt, open, program, psnr, quick, readFileSync, startViewer } from "./page.mjs";
+
+after(closeBrowser);
+
+test("a copied link opens the same scene", async (t) => {
+  const viewer = await open(t, [headCt, ...quick]);
+  await viewer.done();
+  await viewer.drag([90, -30]);
+  const linked = await viewer.sceneWith((s) => s.camera.azimuth_deg !== 0, "another azimuth");
+  await viewer.done();
+  const picture = await viewer.shown("linked.png");
+  await viewer.button("Copy a link to this scene").click();
+  await viewer.page.getByText("Link to this scene copied").waitFor();
+  const link = await viewer.page.evaluate(() => navigator.clipboard.readText());
+  assert.ok(link.startsWith(new URL("/", viewer.viewer.url).href), link.slice(0, 60));
+  await viewer.page.keyboard.press("3");
+  await viewer.sceneWith((s) => Math.abs(s.camera.azimuth_deg - 90) < 1e-6, "the view from the left");
+  await viewer.done();
+  // In the open page, and from the beginning.
+  await viewer.page.goto(link);
+  assert.deepEqual((await viewer.sceneWith((s) => s.camera.azimuth_deg === linked.camera.azimuth_deg, "the linked view")), linked);
+  await viewer.done();
+  assert.ok(psnr(picture, await viewer.shown("again.png")) > 45, "not the linked picture");
+  await viewer.page.keyboard.press("3");
+  await viewer.sceneWith((s) => Math.abs(s.camera.azimuth_deg - 90) < 1e-6, "the view from the left again");
+  await viewer.page.goto("about:blank");
+  await viewer.page.goto(link);
+  assert.deepEqual((await viewer.sceneWith((s) => s.camera.azimuth_deg === linked.camera.azimuth_deg, "the linked view again")), linked);
+  assert.equal(await viewer.page.evaluate(() => location.hash), "", "reloading would undo what is changed from now on");
+  await viewer.done();
+  // A damaged link changes nothing and says so.
+  await viewer.page.goto(`${link.slice(0, link.length - 40)}`);
+  await viewer.page.getByText("copy the whole link again").waitFor();
+  assert.deepEqual(await viewer.scene(), linked);
+});
+
+test("an EXR has the picture in linear light", async (t) => {
+  const viewer = await open(t, [headCt, ...quick]);
+  await viewer.done();
+  await viewer.button("Save the picture").click();
+  const [download] = await Promise.all([viewer.page.waitForEvent("download"), viewer.page.getByRole("menuitem", { name: /^EXR/ }).click()]);
+  assert.match(download.suggestedFilename(), /\.exr$/);
+  const file = join(viewer.scratch, "picture.exr");
+  await download.saveAs(file);
+  assert.deepEqual([...readFileSync(file).subarray(0, 4)], [0x76, 0x2f, 0x31, 0x01]);
+  const { rmse } = JSON.parse(execFileSync(program, ["compare", file, await viewer.rendered("rendered.exr"), "--json"], { encoding: "utf8" }));
+  assert.ok(rmse < 1e-3, `${rmse} of linear light`);
+});
+
+test("a viewer that was started again has a new address, and the page says that", async (t) => {
+  const viewer = await open(t, [headCt, ...quick]);
+  await viewer.done();
+  const { port } = new URL(viewer.viewer.url);
+  await viewer.viewer.kill();
+  const banner = viewer.page.locator(".banner");
+  await banner.getByText(/Not connected to the viewer/).waitFor();
+  assert.match(await banner.innerText(), /voxlume view/, "the page does not say what to do");
+  viewer.viewer = await startViewer([headCt, ...quick, "--folder", viewer.scratch], {}, port);
+  await banner.getByText(/token/).waitFor({ timeout: 15000 });
+  assert.doesNotMatch(await banner.innerText(), /Not connected/);
+  // With the new address the same browser has the viewer again: here, and in the page that was open all the time.
+  const other = await viewer.page.context().newPage();
+  await other.goto(viewer.viewer.url);
+  await other.waitForFunction(() => document.title.includes("-"));
+  await other.close();
+  await banner.waitFor({ state: "detached", timeout: 15000 });
+  await viewer.done();
+  await viewer.drag([60, 0]);
+  await viewer.sceneWith((s) => s.camera.azimuth_deg !== 0, "an edit of the page that came back");
+});
