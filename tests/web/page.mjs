@@ -19,6 +19,9 @@ export const samples = `${top}data`;
 /** What most tests need of a picture, and no more. */
 export const quick = ["--spp", "4", "--denoise", "none"];
 
+/** axe-core, to be evaluated in a page: it then has window.axe. */
+export const axeSource = readFileSync(`${top}web/node_modules/axe-core/axe.min.js`, "utf8");
+
 let browser;
 
 /** In the page: what it and its server have said to each other, for Page.settled(). */
@@ -199,14 +202,18 @@ export function psnr(a, b) {
   return value ?? Infinity;
 }
 
-/** A small NRRD file: a ball of 40 voxels across in a cube of 48. */
-export function writeBall(file) {
-  const n = 48, voxels = Buffer.alloc(n * n * n);
-  for (let k = 0, at = 0; k < n; ++k)
-    for (let j = 0; j < n; ++j)
-      for (let i = 0; i < n; ++i, ++at) voxels[at] = (i - 23.5) ** 2 + (j - 23.5) ** 2 + (k - 23.5) ** 2 < 400 ? 200 : 0;
-  writeFileSync(file, Buffer.concat([Buffer.from(`NRRD0004\ntype: uint8\ndimension: 3\nsizes: ${n} ${n} ${n}\nencoding: raw\nspace: left-posterior-superior\nspace directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n\n`), voxels]));
+/** A cube of 48 x 48 x 48 voxels of 1 mm, its first voxel's centre at the origin. */
+function writeCube(file, valueAt) {
+  const n = 48, voxels = new Uint16Array(n * n * n);
+  for (let k = 0, at = 0; k < n; ++k) for (let j = 0; j < n; ++j) for (let i = 0; i < n; ++i, ++at) voxels[at] = valueAt(i, j, k);
+  const header = `NRRD0004\ntype: uint16\ndimension: 3\nsizes: ${n} ${n} ${n}\nencoding: raw\nendian: little\nspace: left-posterior-superior\nspace directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n\n`;
+  writeFileSync(file, Buffer.concat([Buffer.from(header), Buffer.from(voxels.buffer)]));
   return file;
 }
+
+/** A small NRRD file: a ball of 40 mm about (23.5, 23.5, 23.5) with the value 200. */
+export const writeBall = (file) => writeCube(file, (i, j, k) => ((i - 23.5) ** 2 + (j - 23.5) ** 2 + (k - 23.5) ** 2 < 400 ? 200 : 0));
+/** A small NRRD file: 1000 + 10 x. */
+export const writeRamp = (file) => writeCube(file, (i) => 1000 + 10 * i);
 
 export { readFileSync, startViewer };

@@ -18,7 +18,7 @@ export async function startViewer(args, environment = {}, port = 0) {
   const program = process.env.VOXLUME_BINARY ?? `${top}build/release/voxlume`;
   const child = spawn(program, ["view", "--no-open", "--port", `${port}`, ...args], {
     cwd: top,
-    env: { ...process.env, VOXLUME_PAGE: `${top}build/web`, ...environment },
+    env: { ...process.env, VOXLUME_PAGE: `${top}build/web`, VOXLUME_SAMPLES: `${top}data`, ...environment },
     stdio: ["ignore", "pipe", "inherit"],
   });
   const exited = new Promise((resolve) => child.once("exit", (code) => resolve(code)));

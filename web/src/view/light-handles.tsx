@@ -25,9 +25,17 @@ const lights = section("lights");
 
 /** Of the sphere of directional lights, by the smaller side of the view. */
 const kSphereShare = 0.38;
-/** What handles keep from the view's edges; at the left the tools are. */
+/** What handles keep from the view's edges: at the left the tools are, at the top what they want, in the upper right
+ * corner the orientation cube. All of these lie over the handles. */
 const kEdge_px = 22;
-const kLeftEdge_px = 66;
+const kToolEdge_px = 66;
+const kCubeCorner_px = 155;
+
+function isFree(x: number, y: number): boolean {
+  const { width, height } = viewSize.value;
+  if (x < kToolEdge_px || y < kToolEdge_px || x > width - kEdge_px || y > height - kEdge_px) return false;
+  return x < width - kCubeCorner_px || y > kCubeCorner_px;
+}
 
 interface Scenery {
   shown: ViewProjection;
@@ -66,20 +74,15 @@ function positionedPlace(light: Light, scenery: Scenery): Place {
   const { shown, camera, center, pxPerMm } = scenery;
   const position = worldPosition(light, camera);
   const seen = shown.project(position);
-  const { width, height } = viewSize.value;
-  const inside = (x: number, y: number) =>
-    x >= kLeftEdge_px && y >= kEdge_px && x <= width - kEdge_px && y <= height - kEdge_px;
-  if (isSeen(seen.depth_mm, scenery) && inside(seen.x, seen.y))
+  if (isSeen(seen.depth_mm, scenery) && isFree(seen.x, seen.y))
     return { x: seen.x, y: seen.y, away: false, exact: true };
   // Outside, or behind the eye: at the view's edge, in its direction from the target.
   const offset = sub(position, camera.target_mm);
   const dx = dot(offset, camera.right) * pxPerMm;
   const dy = -dot(offset, camera.up) * pxPerMm;
-  const fit = Math.min(
-    (dx > 0 ? width - kEdge_px - center.x : center.x - kLeftEdge_px) / Math.max(1e-6, Math.abs(dx)),
-    (dy > 0 ? height - kEdge_px - center.y : center.y - kEdge_px) / Math.max(1e-6, Math.abs(dy)),
-  );
-  const share = Math.min(1, Math.max(0, fit));
+  const { width, height } = viewSize.value;
+  let share = Math.min(1, (width + height) / Math.max(1e-6, Math.hypot(dx, dy)));
+  while (share > 0.01 && !isFree(center.x + dx * share, center.y + dy * share)) share *= 0.98;
   return { x: center.x + dx * share, y: center.y + dy * share, away: false, exact: false };
 }
 
