@@ -16,7 +16,7 @@ namespace {
 /// Passes over what is important, and their looks, while the view moves: its lists are made for every frame.
 constexpr int kMovingRayPasses = 4;
 /// What a first still picture may take before it is shown [s].
-constexpr double kFirstStill_s = 0.25;
+constexpr double kFirstStill_s = 0.5;
 /// As many samples make the standard error known; the render loop looks at it from there on, too.
 constexpr int kNoiseFrom = 8;
 /// A still picture is shown again after so many times what showing it takes, but not more often than this.

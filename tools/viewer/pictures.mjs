@@ -28,25 +28,26 @@ async function shoot(name, args, act, colorScheme = "dark") {
 }
 
 const head = "data/head-ct.nrrd";
-await shoot("transfer", [head, "--preset", "ct-muscle-bone", "--spp", "64", "--camera", "28,8,1.9"], async ({ page, panel, done }) => {
+await shoot("transfer", [head, "--preset", "ct-muscle-bone", "--spp", "64", "--camera", "28,8,1.6"], async ({ page, panel, done }) => {
   await panel("Transfer function");
   await page.waitForFunction(() => [...document.querySelectorAll("[role=radiogroup][aria-label=Presets] img")].filter((i) => i.naturalWidth > 0).length >= 6, undefined, { timeout: 60000 });
   await done();
 });
-await shoot("labels", ["examples/brain-regions.json", "--spp", "256", "--denoise", "decoupled"], async ({ panel, done }) => {
+await shoot("labels", ["examples/brain-regions.json", "--spp", "64", "--denoise", "decoupled"], async ({ panel, done }) => {
   await panel("Labels");
   await done();
 });
-await shoot("slices", [head, "--preset", "ct-bone", "--spp", "64", "--camera", "35,10,1.9"], async ({ page, press, done }) => {
+await shoot("slices", [head, "--preset", "ct-bone", "--spp", "64", "--camera", "35,10,1.5"], async ({ page, press, done }) => {
+  await done();
   await press("s");
   await done();
   const box = await page.getByRole("img", { name: "The rendered volume" }).boundingBox();
   await page.mouse.click(box.x + box.width * 0.55, box.y + box.height * 0.45);
   await done();
 });
-await shoot("lights", [head, "--preset", "ct-skin", "--spp", "128", "--camera", "-25,5,1.9"], async ({ panel, press, done }) => {
+await shoot("lights", [head, "--preset", "ct-skin", "--spp", "128", "--camera", "-25,5,1.5"], async ({ panel, done }) => {
+  await done();
   await panel("Lights and background");
-  await press("l");
   await done();
 }, "light");
 await shoot("opening", [], async ({ page }) => {

@@ -1,4 +1,3 @@
-import { effect } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { formatNumber } from "../model/axis";
 import { describePosition } from "../model/slice";
@@ -10,7 +9,6 @@ import { showToast } from "../ui/toast";
 import { addOverlay, overlays, view } from "../view/overlay";
 import "../styles/slices.css";
 import { picking, pickPoint } from "../view/pick";
-import { forgetSlices } from "./fetch-slice";
 import { SliceView } from "./slice-view";
 import {
   dragTool,
@@ -35,12 +33,7 @@ export function SlicePlanes() {
   const overlay = shownOverlay();
   useEffect(() => {
     addOverlay("crosshair", CrosshairMark);
-    const stop = effect(() => {
-      void volume.value;
-      forgetSlices();
-    });
     return () => {
-      stop();
       overlays.value = overlays.peek().filter((one) => one.id !== "crosshair");
     };
   }, []);

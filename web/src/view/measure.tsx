@@ -22,8 +22,11 @@ const begun = signal<Vec3 | null>(null);
 export const measuring = computed(() => pointerTool.value === "measure");
 let count = 0;
 
+/** Distances belong to a volume; one that fails to open changes nothing. */
+let opening = false;
 on("status", (message) => {
-  if (message.stage === "reading") clearMeasurements();
+  if (opening && message.stage === "ready") clearMeasurements();
+  opening = message.stage === "reading" || message.stage === "preparing";
 });
 
 export function clearMeasurements(): void {

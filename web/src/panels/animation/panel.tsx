@@ -19,7 +19,7 @@ import { exporting } from "../../state/session";
 import type { Animation, Scene, Track } from "../../state/scene-types";
 import { Button, IconButton, NumberInput } from "../../ui/controls";
 import { Icon, type IconName } from "../../ui/icons";
-import { duration, endPreview, pause, play, playhead, playing, previewing } from "./playback";
+import { duration, endPreview, pause, placePlayhead, play, playhead, playing, previewing } from "./playback";
 import { KeyframeStrip } from "./strip";
 
 const parts: readonly { part: CapturePart; title: string; icon: IconName }[] = [
@@ -32,6 +32,7 @@ const parts: readonly { part: CapturePart; title: string; icon: IconName }[] = [
 const chosenParts = signal<ReadonlySet<CapturePart>>(new Set(["camera"]));
 
 const kDefaultStep_s = 2;
+const kSameTime_s = 1e-3;
 
 function set(animation: Animation | null): void {
   edit([["/animation", animation]], newGesture("animation"));
@@ -53,9 +54,11 @@ export function AnimationPanel() {
     setSelected(time);
   };
   const add = () => {
-    const last = keyframes.at(-1)?.time;
-    // Where the preview stands, else some time after the last.
-    captureAt(previewing.value || last === undefined ? playhead.value : last + kDefaultStep_s);
+    // Where the playhead stands; where that has a keyframe and nothing is previewed, some time after the last.
+    const taken = keyframes.some((one) => Math.abs(one.time - playhead.value) < kSameTime_s);
+    const time = taken && !previewing.value ? keyframes.at(-1)!.time + kDefaultStep_s : playhead.value;
+    captureAt(time);
+    placePlayhead(time);
   };
   return (
     <div class="animation">

@@ -20,6 +20,11 @@ export const playing: ReadonlySignal<boolean> = running;
 
 export const duration: ReadonlySignal<number> = computed(() => durationOf(scene.value?.animation));
 
+/** Puts the playhead there; the picture stays. */
+export function placePlayhead(time_s: number): void {
+  time.value = time_s;
+}
+
 /** Moves the playhead; with an animation the picture follows. */
 export function seek(time_s: number): void {
   time.value = Math.max(0, time_s);
