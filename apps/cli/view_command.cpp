@@ -21,6 +21,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Rendering's share of a frame: a browser on the same machine takes and draws the picture in what is left.
+constexpr double kFrameBudget_s = 1.0 / 45;
+
 /// What the user asked `voxlume view` for.
 struct ViewRequest {
   std::string input, folder, address = "127.0.0.1";
@@ -81,6 +84,7 @@ int view(const ViewRequest& request) {
   options.page = server::PageFiles::find(program);
   options.most_upload_bytes = static_cast<std::uint64_t>(request.max_upload_gb * 1e9);
   options.live.threads = request.threads;
+  options.live.frame_budget_s = kFrameBudget_s;
   server::Server server(options);
   if (!server::is_loopback(request.address))
     fmt::print(stderr,
