@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "base/file_extension.h"
 #include "volume_io/file_format.h"
 #include "voxlume/error.h"
 

@@ -57,7 +57,7 @@ std::string_view format_name(FileFormat format) {
   return kNames[static_cast<std::size_t>(format)];
 }
 
-std::string lower_extension(const std::filesystem::path& path) {
+std::string volume_extension(const std::filesystem::path& path) {
   std::string name = path.filename().string();
   std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
   if (name.ends_with(".nii.gz")) return ".nii.gz";
@@ -65,7 +65,7 @@ std::string lower_extension(const std::filesystem::path& path) {
 }
 
 std::optional<FileFormat> format_of_extension(const std::filesystem::path& path) {
-  const std::string extension = lower_extension(path);
+  const std::string extension = volume_extension(path);
   for (const ExtensionRow& row : kExtensions) {
     if (row.extension == extension) return row.format;
   }

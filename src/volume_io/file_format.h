@@ -21,6 +21,6 @@ std::optional<FileFormat> format_of_content(const std::filesystem::path& path);
 std::string_view known_extensions();
 
 /// The extension in lower case, ".nii.gz" as one.
-std::string lower_extension(const std::filesystem::path& path);
+std::string volume_extension(const std::filesystem::path& path);
 
 }  // namespace voxlume

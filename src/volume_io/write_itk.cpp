@@ -81,7 +81,7 @@ void write_itk(const Volume& volume, const std::filesystem::path& path, FileForm
   io->SetPixelType(itk::IOPixelEnum::SCALAR);
   io->SetNumberOfComponents(1);
   io->SetIORegion(region);
-  io->SetUseCompression(lower_extension(path) == ".nrrd" || lower_extension(path) == ".nii.gz");
+  io->SetUseCompression(volume_extension(path) == ".nrrd" || volume_extension(path) == ".nii.gz");
   io->SetFileType(itk::IOFileEnum::Binary);
   io->SetFileName(path.string());
   if (format == FileFormat::kNrrd && !volume.modality.empty()) {

@@ -65,7 +65,7 @@ void check_written(const Volume& volume, const std::vector<std::filesystem::path
   constexpr std::uint32_t kNiftiVoxelOffset = 352;
   std::uint64_t total = 0;
   for (const std::filesystem::path& file : files) total += std::filesystem::file_size(file);
-  const std::string extension = lower_extension(path);
+  const std::string extension = volume_extension(path);
   const auto gzip_length = static_cast<std::uint32_t>(volume.byte_count());  // gzip keeps it modulo 2^32
   bool whole = total >= volume.byte_count();
   if (extension == ".nrrd") whole = total > 64 && last_word(files[0]) == gzip_length;
@@ -77,7 +77,7 @@ void check_written(const Volume& volume, const std::vector<std::filesystem::path
 
 /// x.nhdr and x.mhd both keep their voxels in x.raw: writing one must not change what the other points to.
 void check_data_name_free(const std::filesystem::path& path) {
-  const std::string extension = lower_extension(path);
+  const std::string extension = volume_extension(path);
   if (extension != ".nhdr" && extension != ".mhd") return;
   std::filesystem::path other = path;
   other.replace_extension(extension == ".nhdr" ? ".mhd" : ".nhdr");
@@ -147,7 +147,7 @@ void write_checked(const Volume& volume, const std::filesystem::path& path) {
   if (!format || *format == FileFormat::kDicom) {
     fail(ErrorCode::kUnsupported, path,
          fmt::format("cannot write \"{}\"; expected one of {}, or a folder (ending in /) for a DICOM series",
-                     lower_extension(path), known_extensions()));
+                     volume_extension(path), known_extensions()));
   }
   const bool carries_orientation = *format != FileFormat::kTiff && *format != FileFormat::kVtk;
   write_file(carries_orientation ? checked : along_lps_axes(path, checked), path, *format);
