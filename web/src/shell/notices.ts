@@ -2,9 +2,15 @@ import { on } from "../state/connection";
 import { refusal } from "../state/scene";
 import { showToast } from "../ui/toast";
 
-/** Tells what the server could not do. */
+/** Tells what the server could not do, and how what takes long has ended. */
 export function announceTrouble(): void {
   on("trouble", (message) => showToast({ tone: "warning", text: message.message }));
+  let exporting = false;  // a page that comes later is told of an export's end, too
+  on("export", (message) => {
+    if (exporting && message.state === "done") showToast({ text: `${message.file} is written` });
+    if (message.state === "failed") showToast({ tone: "error", text: message.message ?? `${message.file} could not be written` });
+    exporting = message.state === "running";
+  });
   refusal.subscribe((what) => {
     if (what) showToast({ tone: "warning", text: `${what.where}: ${what.message}` });
   });

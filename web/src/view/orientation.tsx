@@ -8,16 +8,20 @@ import { view } from "./overlay";
 
 /** Where the patient's sides are: letters at the picture's edges, and a cube. */
 
+/** What the tools cover of a view at its left edge [CSS px]. */
+const kTools = { width: 50, height: 255 };
+
 export function EdgeLabels() {
   const shown = view.value;
   if (!shown) return null;
   const { camera, rect } = shown;
   const inset = 14;
+  const leftInset = rect.x < kTools.width && rect.y + rect.height / 2 < kTools.height ? kTools.width + inset - rect.x : inset;
   const across = rect.x + rect.width / 2;
   const middle = rect.y + rect.height / 2;
   const places: [Vec3, number, number][] = [
     [camera.right, rect.x + rect.width - inset, middle],
-    [scale(camera.right, -1), rect.x + inset, middle],
+    [scale(camera.right, -1), rect.x + leftInset, middle],
     [camera.up, across, rect.y + inset],
     [scale(camera.up, -1), across, rect.y + rect.height - inset],
   ];
