@@ -125,7 +125,12 @@ TEST_F(DocumentTest, WhatIsWrongIsRefusedWholeWithItsAddress) {
   EXPECT_THAT(refusal(document, {{"/camera/nothing", 1}}), HasSubstr("nothing"));
   EXPECT_THAT(refusal(document, {{"/version", nullptr}}), HasSubstr("version"));
   EXPECT_THAT(refusal(document, {{"/version", 99}}), HasSubstr("version"));
-  EXPECT_THAT(refusal(document, {{"/clip", {{"x_mm", {500, 600}}}}}), HasSubstr("/clip"));
+  EXPECT_THAT(refusal(document, {{"/clip", {{"x_mm", {500, 600}}}}}), HasSubstr("/clip/x_mm: "));
+  // What no picture can be made of.
+  EXPECT_THAT(refusal(document, {{"/camera/zoom", 1e-9}}), HasSubstr("/camera/zoom: "));
+  EXPECT_THAT(refusal(document, {{"/camera/target_mm", {1e9, 0, 0}}}), HasSubstr("/camera/target_mm: "));
+  EXPECT_THAT(refusal(document, {{"/camera/fit_radius_mm", 1e9}}), HasSubstr("/camera/fit_radius_mm: "));
+  EXPECT_THAT(refusal(document, {{"/transfer/density_scale", 1e6}}), HasSubstr("/transfer/density_scale: "));
 }
 
 TEST_F(DocumentTest, AddressesThatLeadNowhereAreRefused) {

@@ -209,6 +209,12 @@ test("what is important is seen through what hides it", { skip: missing("head-ct
   await viewer.sceneWith((s) => !s.visibility, "nothing important");
   await viewer.done();
   assert.ok(psnr(skin, await viewer.shown("again.png")) > 45, "not the skin again");
+  await viewer.button("Values").click();
+  await viewer.sceneWith((s) => s.visibility?.important?.length === 2, "the same once more");
+  await viewer.page.getByText("The same as number 1 above").waitFor();
+  await viewer.page.getByRole("button", { name: "Remove", exact: true }).last().click();
+  await viewer.sceneWith((s) => s.visibility?.important?.length === 1, "it alone");
+  assert.equal(await viewer.page.getByText("The same as number 1 above").count(), 0);
 });
 
 test("the denoiser is chosen, and takes noise out", async (t) => {
