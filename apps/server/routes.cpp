@@ -209,13 +209,10 @@ Reply Routes::scene_file() const {
 
 Reply Routes::thumbnail(const std::string& preset) const {
   Reply reply;
-  reply.body = view_.thumbnail(preset);
-  if (reply.body) {
-    reply.type = "image/png";
-    return reply;
-  }
-  reply = error_reply(Status::service_unavailable, "it is being drawn; ask again");
-  reply.headers.emplace_back("Retry-After", "1");
+  const auto png = view_.thumbnails().find(preset);
+  if (!png) return error_reply(Status::not_found, "there is no such picture, or it is not drawn yet");
+  reply.body = png;
+  reply.type = "image/png";
   return reply;
 }
 

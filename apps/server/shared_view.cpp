@@ -33,6 +33,8 @@ json status_json(const std::string& stage, const std::string& name, const std::s
   return out;
 }
 
+json preset_drawn(const std::string& preset) { return {{"type", "preset_drawn"}, {"name", preset}}; }
+
 /// What a page is told whose message could not be followed; `message` is absent where it could not be read.
 json failure(const std::optional<PageMessage>& message, std::string_view text, const Error& error) {
   if (message) {
@@ -57,7 +59,7 @@ SharedView::SharedView(boost::asio::io_context& io, Settings settings, Roots roo
       settings_(std::move(settings)),
       roots_(std::move(roots)),
       still_timer_(io),
-      thumbnails_(io),
+      thumbnails_(io, [this](const std::string& preset) { tell_all(preset_drawn(preset)); }),
       exports_(io, settings_.program, settings_.temporary / "exports",
                [this](const Json& m) { tell_all(m); }),
       opening_(io, settings_.live,
@@ -255,6 +257,12 @@ void SharedView::take(Viewer&, const ExportMessage& message) {
 
 void SharedView::take(Viewer&, const CancelExportMessage&) { exports_.cancel(); }
 
+void SharedView::take(Viewer& from, const DrawPresetsMessage&) {
+  const SceneDescription& scene = open_document().scene();
+  for (const std::string& preset : thumbnails_.draw_all(*volume_, scene))
+    from.send(shared_text(preset_drawn(preset)));
+}
+
 void SharedView::take(Viewer& from, const ShownMessage& message) { from.shown(message.frame); }
 
 Document& SharedView::open_document() {
@@ -301,11 +309,6 @@ void SharedView::hand_out_stills(const std::shared_ptr<const LiveFrame>& frame) 
   still_timer_.cancel();
   for (const auto& use : std::exchange(awaiting_still_, {})) use(frame);
   watch_or_rest();
-}
-
-std::shared_ptr<const std::string> SharedView::thumbnail(const std::string& preset) {
-  const SceneDescription& scene = open_document().scene();
-  return thumbnails_.find(preset, *volume_, scene);
 }
 
 std::filesystem::path SharedView::temporary_file(const std::string& extension) {

@@ -61,9 +61,7 @@ class SharedView {
   /// A name for a file that is removed at the latest at the end; another one every time.
   std::filesystem::path temporary_file(const std::string& extension);
 
-  /// The picture of a preset; null while it is not drawn. Throws Error, those of Thumbnails::find() and of
-  /// nothing being open.
-  std::shared_ptr<const std::string> thumbnail(const std::string& preset);
+  const Thumbnails& thumbnails() const { return thumbnails_; }
   /// Calls `use` with the picture of the scene as it is now at its full size, as soon as there is one; with
   /// null where that takes too long.
   void with_still_picture(std::function<void(std::shared_ptr<const LiveFrame>)> use);
@@ -83,6 +81,7 @@ class SharedView {
   void take(Viewer& from, const ProbeMessage& message);
   void take(Viewer& from, const ExportMessage& message);
   void take(Viewer& from, const CancelExportMessage&);
+  void take(Viewer& from, const DrawPresetsMessage&);
   void take(Viewer& from, const ShownMessage& message);
 
   /// Throws Error while nothing is open.

@@ -88,7 +88,7 @@ class LiveSession {
   void set_watched(bool watched);
 
   /// Asks for a small picture of another scene of this volume, `spp` samples without denoiser, as large as its
-  /// image says: drawn when the view is still, one after the other, and handed to `done` by the session's
+  /// image says: drawn when the view is still and watched, one after the other, and handed to `done` by the session's
   /// thread; an empty one (0 x 0) where it failed or the session ended.
   void draw_aside(SceneDescription scene, int spp, std::function<void(Image8)> done);
 

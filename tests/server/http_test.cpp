@@ -339,18 +339,43 @@ TEST_F(HttpOfVolume, SceneIsAFileThatCanBeLoaded) {
   EXPECT_EQ(scene["image"]["width"], 32);
 }
 
-TEST_F(HttpOfVolume, ThumbnailsComeWhenTheyAreDrawn) {
+TEST_F(HttpOfVolume, ThumbnailsAreThereWhenTheyAreSaidToBe) {
   Page page(*address_);
   EXPECT_EQ(get(*address_, "/api/preset/nothing.png").status, 404);
-  Answer answer = get(*address_, "/api/preset/ct-bone.png");
-  EXPECT_EQ(answer.status, 503);
-  for (int i = 0; i < 500 && answer.status == 503; ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    answer = get(*address_, "/api/preset/ct-bone.png");
+  EXPECT_EQ(get(*address_, "/api/preset/ct-bone.png").status, 404);  // nobody asked for it
+  const json hello = page.next("hello");
+  page.next("scene");
+  page.send({{"type", "draw_presets"}});
+  std::vector<std::string> drawn;
+  for (std::size_t i = 0; i < hello["presets"].size(); ++i) {
+    drawn.push_back(page.next("preset_drawn")["name"]);
+    const Answer answer = get(*address_, "/api/preset/" + drawn.back() + ".png");
+    ASSERT_EQ(answer.status, 200) << drawn.back();
+    EXPECT_EQ(answer.header("Content-Type"), "image/png");
+    EXPECT_EQ(answer.body.substr(16, 8), std::string("\0\0\0\x80\0\0\0\x80", 8));
   }
-  ASSERT_EQ(answer.status, 200);
-  EXPECT_EQ(answer.header("Content-Type"), "image/png");
-  EXPECT_EQ(answer.body.substr(16, 8), std::string("\0\0\0\x80\0\0\0\x80", 8));
+  std::vector<std::string> presets;
+  for (const json& preset : hello["presets"]) presets.push_back(preset["name"]);
+  EXPECT_THAT(drawn, testing::UnorderedElementsAreArray(presets));
+  // Another page is told at once, and they are the same pictures.
+  const std::string before = get(*address_, "/api/preset/ct-bone.png").body;
+  Page later(*address_);
+  later.next("scene");
+  later.send({{"type", "draw_presets"}});
+  for (std::size_t i = 0; i < presets.size(); ++i) later.next("preset_drawn");
+  EXPECT_EQ(get(*address_, "/api/preset/ct-bone.png").body, before);
+}
+
+TEST_F(HttpOfVolume, ThumbnailsOfAnEarlierVolumeAreGone) {
+  Page page(*address_);
+  page.next("scene");
+  page.send({{"type", "draw_presets"}});
+  const std::string name = page.next("preset_drawn")["name"];
+  page.send({{"type", "open"}, {"path", "ramp.nrrd"}});
+  page.next("scene");
+  EXPECT_EQ(get(*address_, "/api/preset/" + name + ".png").status, 404);
+  page.send({{"type", "draw_presets"}});
+  page.next("preset_drawn");
 }
 
 }  // namespace

@@ -68,8 +68,17 @@ test("presets and points of the transfer function change the picture", async (t)
   const viewer = await open(t, [headCt, "--preset", "ct-bone", ...quick]);
   await viewer.done();
   const bone = await viewer.shown("bone.png");
+  const answers = [];
+  viewer.page.on("response", (response) => response.url().includes("/api/preset/") && answers.push(response.status()));
   await viewer.panel("Transfer function");
   const first = await viewer.scene();
+  // Every preset has its picture, each asked for once, when it is drawn.
+  const presets = await viewer.page.getByRole("radiogroup", { name: "Presets" }).getByRole("radio").count();
+  await viewer.page.waitForFunction((n) => {
+    const pictures = [...document.querySelectorAll(".preset img")];
+    return pictures.length === n && pictures.every((picture) => picture.naturalWidth === 128);
+  }, presets, { timeout: 60000 });
+  assert.deepEqual(answers, Array(presets).fill(200));
   await viewer.page.getByRole("radio", { name: /ct-skin/ }).click();
   const skin = await viewer.sceneWith((s) => s.transfer.preset === "ct-skin", "the preset ct-skin");
   assert.notDeepEqual(skin.transfer.points, first.transfer.points);

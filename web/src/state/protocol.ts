@@ -16,6 +16,7 @@ export type PageMessage =
   | { type: "probe"; id: number; x: number; y: number }
   | { type: "export"; file: string }
   | { type: "cancel_export" }
+  | { type: "draw_presets" }
   | { type: "shown"; frame: number };
 
 export interface Named {
@@ -104,6 +105,12 @@ export interface Split {
   at: number | null;
 }
 
+/** /api/preset/NAME.png is there. */
+export interface PresetDrawn {
+  type: "preset_drawn";
+  name: string;
+}
+
 export interface Viewers {
   type: "viewers";
   count: number;
@@ -120,6 +127,7 @@ export type ServerMessage =
   | Probe
   | ExportState
   | Split
+  | PresetDrawn
   | Viewers;
 
 /** The camera of a picture. half_width and half_height are tangents (perspective) or mm (orthographic). */
