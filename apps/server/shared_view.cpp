@@ -178,9 +178,8 @@ void SharedView::receive(Viewer& viewer, std::string_view text) {
 void SharedView::take(Viewer& from, const EditMessage& message) {
   Document& document = open_document();
   // A gesture is one viewer's; two may call theirs alike.
-  const std::string gesture = message.gesture.empty()
-                                  ? ""
-                                  : std::to_string(reinterpret_cast<std::uintptr_t>(&from)) + message.gesture;
+  const std::string gesture =
+      message.gesture.empty() ? "" : std::to_string(from.page_number()) + " " + message.gesture;
   const Json sections = document.edit(message.set, gesture);
   if (!sections.empty()) show();
   if (sections.contains("image"))

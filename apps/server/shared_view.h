@@ -52,6 +52,8 @@ class SharedView {
   /// Ends what other processes do; after this no file is written any more.
   void end();
 
+  /// Another one for every page; what pages call alike is told apart by it.
+  std::uint64_t next_page_number() { return ++page_numbers_; }
   std::size_t viewer_count() const { return viewers_.size(); }
   /// Null while none is open.
   std::shared_ptr<OpenedVolume> volume() const { return volume_; }
@@ -108,6 +110,7 @@ class SharedView {
   Roots roots_;
   std::map<const Viewer*, std::shared_ptr<Viewer>> viewers_;
 
+  std::uint64_t page_numbers_ = 0;
   std::shared_ptr<OpenedVolume> volume_;
   std::optional<Document> document_;
   std::uint64_t revision_ = 0;  ///< what was asked for last, as viewers know it

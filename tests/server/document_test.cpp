@@ -219,6 +219,60 @@ TEST_F(DocumentTest, EditsOutOfGesturesAndAfterUndoAreStepsOfTheirOwn) {
   EXPECT_EQ(document.scene().camera.azimuth_deg, 1);
 }
 
+TEST_F(DocumentTest, InterleavedGesturesOfDifferentMembersAreAStepEach) {
+  Document document = make();
+  const json first = document.json();
+  for (int i = 1; i <= 10; ++i) {
+    document.edit({{"/camera/azimuth_deg", i}}, "1 orbit");
+    document.edit({{"/image/exposure_ev", 0.1 * i}}, "2 exposure");
+  }
+  const json after = document.json();
+  document.undo();  // the one that began last
+  EXPECT_EQ(document.scene().image.exposure_ev, 0);
+  EXPECT_EQ(document.scene().camera.azimuth_deg, 10);
+  document.undo();
+  EXPECT_EQ(document.json(), first);
+  EXPECT_FALSE(document.can_undo());
+  document.redo();
+  document.redo();
+  EXPECT_EQ(document.json(), after);
+}
+
+TEST_F(DocumentTest, AGestureTakesUpFurtherMembersUnlessTheyWereChangedInBetween) {
+  Document document = make();
+  const json first = document.json();
+  document.edit({{"/camera/azimuth_deg", 1}}, "1 g");
+  document.edit({{"/image/exposure_ev", 1}}, "2 g");
+  document.edit({{"/camera/azimuth_deg", 2}, {"/clip", {{"x_mm", {-1, 1}}}}}, "1 g");  // joins
+  document.edit({{"/image/exposure_ev", 2}}, "1 g");                                  // does not
+  document.undo();
+  EXPECT_EQ(document.scene().image.exposure_ev, 1);
+  EXPECT_TRUE(document.scene().clip);
+  document.undo();
+  EXPECT_EQ(document.scene().image.exposure_ev, 0);
+  EXPECT_EQ(document.scene().camera.azimuth_deg, 2);
+  EXPECT_TRUE(document.scene().clip);
+  document.undo();
+  EXPECT_EQ(document.json(), first);
+  EXPECT_FALSE(document.can_undo());
+}
+
+TEST_F(DocumentTest, InterleavedGesturesOfOneMemberAreStepsOfTheirOwn) {
+  Document document = make();
+  std::vector<json> states{document.json()};
+  for (int i = 1; i <= 3; ++i) {
+    document.edit({{"/camera/azimuth_deg", i}}, "1 g");
+    states.push_back(document.json());
+    document.edit({{"/camera/zoom", 1 + i}}, "2 g");
+    states.push_back(document.json());
+  }
+  for (std::size_t i = states.size() - 1; i-- > 0;) {
+    ASSERT_TRUE(document.undo());
+    EXPECT_EQ(document.json(), states[i]);
+  }
+  EXPECT_FALSE(document.can_undo());
+}
+
 TEST_F(DocumentTest, ThePicturesSizeIsLeftOutOfUndo) {
   Document document = make();
   const json changed = document.edit({{"/image/width", 200}, {"/image/height", 150}});
