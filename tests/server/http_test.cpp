@@ -88,7 +88,7 @@ TEST_F(Http, WithoutAPageSaysHowToBuildOne) {
 TEST_F(Http, WhileNothingIsOpenThereIsNothingToTell) {
   const Address& at = start();
   for (const char* path :
-       {"/api/volume", "/api/labels", "/api/slice?axis=z&mm=0", "/api/histogram?of=x", "/api/picture.png",
+       {"/api/volume", "/api/labels", "/api/slice?axis=z&mm=0", "/api/histogram?of=x", "/api/histogram2?x=data&y=x", "/api/picture.png",
         "/api/scene.json", "/api/preset/ct-bone.png", "/api/export/a.mp4", "/api/nothing", "/api/"})
     EXPECT_EQ(get(at, path).status, 404) << path;
 }
@@ -313,6 +313,39 @@ TEST_F(HttpOfVolume, ProxiesHaveHistograms) {
   EXPECT_NEAR(histogram["hi"].get<double>(), std::sqrt(1 + 20 * 20 + 400 * 400), 0.5);
   EXPECT_EQ(histogram["counts"].size(), 512u);
   EXPECT_EQ(get(*address_, "/api/histogram?of=nothing").status, 404);
+}
+
+TEST_F(HttpOfVolume, TwoVolumesHaveAJointHistogram) {
+  Page page(*address_);
+  const json proxies = {{{"name", "sides"}, {"path", "labels.nrrd"}, {"lookup", "nearest"}},
+                        {{"name", "g"}, {"kind", "gradient"}}};
+  page.send(edit(1, "/proxies", proxies));
+  page.next("edited");
+  const json histogram = data("/api/histogram2?x=data&y=sides");
+  const std::size_t columns = histogram["columns"], rows = histogram["rows"];
+  EXPECT_EQ(histogram["x"], json({{"lo", 0}, {"hi", ramp(15, 15, 15)}}));
+  EXPECT_EQ(histogram["y"], json({{"lo", 0.5}, {"hi", 2.5}}));
+  ASSERT_EQ(rows, 2u);
+  ASSERT_EQ(histogram["counts"].size(), columns * rows);
+  // Half of the voxels are of each label.
+  for (std::size_t row = 0; row < rows; ++row) {
+    std::uint64_t sum = 0;
+    for (std::size_t i = 0; i < columns; ++i) sum += histogram["counts"][row * columns + i].get<std::uint64_t>();
+    EXPECT_EQ(sum, 2048u) << row;
+  }
+  // The least of the ramp's 128 bins has 0 to 49: two rows of 16 voxels, and the first ten of the third.
+  EXPECT_EQ(histogram["counts"][0], 24);
+  EXPECT_EQ(histogram["counts"][columns], 18);
+  EXPECT_EQ(get(*address_, "/api/histogram2?x=data&y=sides").body,
+            get(*address_, "/api/histogram2?x=data&y=sides").body);
+  // The other way round it is the same, turned.
+  const json turned = data("/api/histogram2?x=sides&y=data");
+  for (std::size_t row = 0; row < rows; ++row)
+    for (std::size_t i = 0; i < columns; ++i)
+      ASSERT_EQ(turned["counts"][i * rows + row], histogram["counts"][row * columns + i]);
+  EXPECT_EQ(data("/api/histogram2?x=g&y=g")["columns"], 128);
+  for (const char* wrong : {"", "?x=data", "?x=data&y=nothing", "?x=labels&y=data", "?x=data&y=opacity"})
+    EXPECT_EQ(get(*address_, std::string("/api/histogram2") + wrong).status, 404) << wrong;
 }
 
 TEST_F(HttpOfVolume, PictureIsOfFullSizeWithItsScene) {
