@@ -61,7 +61,7 @@ SharedView::SharedView(boost::asio::io_context& io, Settings settings, Roots roo
       still_timer_(io),
       thumbnails_(io, [this](const std::string& preset) { tell_all(preset_drawn(preset)); }),
       exports_(io, settings_.program, settings_.temporary / "exports",
-               [this](const Json& m) { tell_all(m); }),
+               [this](const Json& m) { take_export_state(m); }),
       opening_(io, settings_.live,
                {.status = [this](const auto&... of) { set_status(of...); },
                 .opened = [this](std::shared_ptr<OpenedVolume> volume) { opened(std::move(volume)); },
@@ -103,6 +103,7 @@ void SharedView::opened(std::shared_ptr<OpenedVolume> volume) {
   thumbnails_.forget();
   watch_or_rest();
   volume_->session->set_split(split_);
+  volume_->session->set_yielding(exporting_);
   set_status("ready", volume_->name, "");
   show();
   tell_scene();
@@ -281,6 +282,12 @@ void SharedView::take_frame(const FrameMessage& frame) {
   last_frame_ = frame.number;
   for (const auto& [key, viewer] : viewers_) viewer->offer(frame);
   if (is_current_still(frame)) hand_out_stills(frame.frame);
+}
+
+void SharedView::take_export_state(const Json& message) {
+  exporting_ = message["state"] == "running";
+  if (volume_) volume_->session->set_yielding(exporting_);
+  tell_all(message);
 }
 
 void SharedView::watch_or_rest() {

@@ -92,6 +92,7 @@ class SharedView {
   SceneDescription fresh_scene(const std::string& path) const;
   void opened(std::shared_ptr<OpenedVolume> volume);
   void take_frame(const FrameMessage& frame);
+  void take_export_state(const Json& message);
   void watch_or_rest();
   bool is_current_still(const FrameMessage& frame) const;
   void hand_out_stills(const std::shared_ptr<const LiveFrame>& frame);
@@ -109,11 +110,12 @@ class SharedView {
   const Settings settings_;
   Roots roots_;
   std::map<const Viewer*, std::shared_ptr<Viewer>> viewers_;
-
   std::uint64_t page_numbers_ = 0;
+
   std::shared_ptr<OpenedVolume> volume_;
   std::optional<Document> document_;
   std::uint64_t revision_ = 0;  ///< what was asked for last, as viewers know it
+  bool exporting_ = false;      ///< an animation is being rendered
   std::optional<FrameMessage> frame_;
   std::uint64_t last_frame_ = 0;  ///< number of the newest frame, as viewers know it
   Json status_;
