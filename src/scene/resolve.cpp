@@ -73,7 +73,7 @@ BoundingSphere visible_sphere(const Volume& volume, const std::optional<ClipDesc
     for (int a = 0; a < 3; ++a)
       if (kept.lower[a] > kept.upper[a])
         throw Error(ErrorCode::kBadParameter, std::string("/clip/") + "xyz"[a] + "_mm",
-                    fmt::format("keeps nothing of the volume, which lies from {:.6g} to {:.6g}",
+                    fmt::format("the clip box keeps nothing of the volume, which lies from {:.6g} to {:.6g}",
                                 whole.lower[a], whole.upper[a]));
     if (0.5 * length(kept.extent()) < radius) {
       center = kept.center();

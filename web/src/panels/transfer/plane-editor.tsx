@@ -200,7 +200,7 @@ function drawCounts(canvas: HTMLCanvasElement, histogram: JointHistogram | null,
   context.fillStyle = getComputedStyle(canvas).color;
   heights.forEach((share, i) => {
     if (!(share > 0)) return;
-    context.globalAlpha = 0.1 + 0.75 * share;
+    context.globalAlpha = 0.12 + 0.88 * share;
     context.fillRect(i % width, Math.floor(i / width), 1, 1);
   });
 }
