@@ -238,8 +238,9 @@ void LiveSession::Loop::move() {
   StopRule stop;
   stop.spp = size.spp;
   spent_.trace_s = timed([&] { trace(*moving_, stop, nullptr, false); });
+  const LiveFrame spent = spent_;  // publishing ends its account
   const double rest_s = timed([&] { publish(*moving_, Shown::kQuickly); });
-  sizes_.learn(size, spent_.compile_s, spent_.trace_s, rest_s);
+  sizes_.learn(size, spent.compile_s, spent.trace_s, rest_s);
 }
 
 void LiveSession::Loop::compile_still() {

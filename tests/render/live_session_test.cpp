@@ -130,6 +130,24 @@ TEST(LiveSession, StopsAtTheNoiseThatTheRenderCommandStopsAt) {
   EXPECT_EQ(frame->linear->rgba, rendered(live, live.session().description()).rgba);
 }
 
+TEST(LiveSession, MovingFramesShrinkForWhatTracingTakes) {
+  Heard heard;
+  SceneDescription scene = small_scene();
+  scene.image.width = scene.image.height = 256;
+  scene.render.max_scatter = 100;
+  scene.render.denoise = "none";
+  // Long enough for all but tracing, which takes several times as long at full size.
+  LiveOptions options;
+  options.frame_budget_s = 0.02;
+  options.rest_s = 1e9;
+  LiveSession live(scene, ball(), heard.listener(), options);
+  live.show(live.session().description());
+  const FramePtr settled = heard.wait_for([](const LiveFrame& f) { return f.number == 30; });
+  EXPECT_TRUE(settled->moving);
+  EXPECT_LT(settled->picture.width, 256) << "tracing took " << settled->trace_s << " s";
+  EXPECT_GT(settled->trace_s, 0);
+}
+
 TEST(LiveSession, OfManyEditsFromManyThreadsTheLastWins) {
   Heard heard;
   LiveSession live(small_scene(), ball(), heard.listener(), quick());
