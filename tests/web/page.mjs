@@ -216,4 +216,7 @@ export const writeBall = (file) => writeCube(file, (i, j, k) => ((i - 23.5) ** 2
 /** A small NRRD file: 1000 + 10 x. */
 export const writeRamp = (file) => writeCube(file, (i) => 1000 + 10 * i);
 
+/** A small NRRD file of labels: 1 to 4 in quarters from the patient's right to the left. */
+export const writeQuarters = (file) => writeCube(file, (i) => 1 + Math.floor(i / 12));
+
 export { readFileSync, startViewer };

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, test } from "node:test";
-import { closeBrowser, headCt, missing, open, quick, writeRamp } from "./page.mjs";
+import { closeBrowser, headCt, missing, open, quick, writeQuarters, writeRamp } from "./page.mjs";
 
 after(closeBrowser);
 
@@ -60,6 +60,26 @@ class Slices {
       if (value >= 0) return value;
     }
     throw new Error(`${title} is never drawn`);
+  }
+
+  /** Color of a plane's canvas at a share of its width and height, "#rrggbb"; empty where nothing is painted. */
+  color(title, across, down) {
+    return this.plane(title).locator("canvas").evaluate(async (canvas, [x, y]) => {
+      await new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)));
+      const [r, g, b, a] = canvas.getContext("2d").getImageData(Math.round(x * canvas.width), Math.round(y * canvas.height), 1, 1).data;
+      return a ? `#${[r, g, b].map((c) => c.toString(16).padStart(2, "0")).join("")}` : "";
+    }, [across, down]);
+  }
+
+  /** Until a place of a plane has that color. */
+  async untilColor(title, [across, down], wanted) {
+    let color;
+    for (let tries = 0; tries < 100; ++tries) {
+      color = await this.color(title, across, down);
+      if (color === wanted) return;
+      await this.page.waitForTimeout(30);
+    }
+    throw new Error(`${title} at ${across}, ${down} is ${color}, never ${wanted}`);
   }
 
   async middle(title) {
@@ -133,6 +153,49 @@ test("a click in the picture takes the slices there, and both read the same valu
     assert.ok(Math.abs(read - probed) <= 5.5, `${read} in the slices, ${probed} in the picture`);
     assert.ok(Math.abs(probed - (1000 + 10 * at[0])) <= 1.1, `${probed} at ${at[0]} mm`);
   }
+});
+
+test("labels have the colors of the scene, and hidden ones none", async (t) => {
+  const scene = (folder) => {
+    const points = [{ value: 0, opacity: 0.999, color: "#ffffff" }, { value: 5000, opacity: 0.999, color: "#ffffff" }];
+    const rules = [
+      { kind: "cdptf", volume: "quarters", points: [{ value: 3, mu_t_per_mm: 1e-9 }] },
+      { kind: "mdptf", volume: "quarters", points: [{ value: 2, material: "moss" }] },
+      { kind: "cdptf", volume: "quarters", points: [{ value: 1, color: "#ff2080" }] },
+    ];
+    const file = join(folder, "quarters-scene.json");
+    writeFileSync(file, JSON.stringify({
+      version: 1,
+      volume: { path: writeRamp(join(folder, "ramp.nrrd")) },
+      proxies: [{ name: "quarters", path: writeQuarters(join(folder, "quarters.nrrd")), lookup: "nearest" }],
+      materials: [{ name: "moss", color: "#208040" }],
+      transfer: { points, rules },
+    }));
+    return [file, ...quick];
+  };
+  const slices = await openSlices(t, scene);
+  const { page, viewer } = slices;
+  const own = await page.evaluate(async () => (await fetch("/api/labels")).json());
+  const fileColor = (value) => own.quarters.find((label) => label.value === value).color;
+  await page.getByRole("slider", { name: "Opacity of the labels" }).press("End");
+  // Places of the plane by where the labels are, left to right: its middle is the volume's.
+  const pane = await slices.plane("Axial").boundingBox();
+  const side = Math.min(pane.width, pane.height);
+  const at = (share) => [0.5 + ((share - 0.5) * side) / pane.width, 0.42];
+  await slices.untilColor("Axial", at(0.1), "#ff2080");
+  await slices.untilColor("Axial", at(0.4), "#208040");
+  assert.notEqual(fileColor(4), "#ff2080");
+  await slices.untilColor("Axial", at(0.9), fileColor(4));
+  const isGrey = (color) => color !== "" && color.slice(1, 3) === color.slice(3, 5) && color.slice(3, 5) === color.slice(5);
+  const bare = await slices.color("Axial", ...at(0.6));
+  assert.ok(isGrey(bare), `the hidden label is painted ${bare}`);
+
+  await viewer.panel("Labels");
+  await viewer.button("Show Label 3").click();
+  await slices.untilColor("Axial", at(0.6), fileColor(3));
+  await viewer.button("Hide Label 1").click();
+  await viewer.sceneWith((s) => s.transfer.rules.some((rule) => rule.points.some((p) => p.value === 1 && p.mu_t_per_mm)), "a hidden label");
+  for (let tries = 0; !isGrey(await slices.color("Axial", ...at(0.1))); ++tries) assert.ok(tries < 100, "the label is still painted");
 });
 
 test("the window is dragged, typed and taken from presets", { skip: missing("head-ct.nrrd") }, async (t) => {

@@ -4,6 +4,7 @@ import { canvasOf, fitSlice, planes, pointOf, sampleIndex, type Plane } from "..
 import { decode, dragWindow } from "../model/window";
 import { crosshair, setCrosshair } from "../state/crosshair";
 import type { Vec3 } from "../state/scene-types";
+import { labelColors } from "../state/label-colors";
 import { labels, volume } from "../state/volume";
 import { startDrag } from "../ui/drag";
 import { fetchSlice, type Slice } from "./fetch-slice";
@@ -65,9 +66,10 @@ export function SliceView({ plane, overlay }: { plane: Plane; overlay: string })
 
   const grey = useMemo(() => shown && bitmapOf(paintGrey(shown.data, window)), [shown?.data, window]);
   const names = labels.value[overlay];
+  const colors = labelColors.value[overlay];
   const tint = useMemo(
-    () => (shown?.labels && names ? bitmapOf(paintLabels(shown.labels, names)) : null),
-    [shown?.labels, names],
+    () => (shown?.labels && colors ? bitmapOf(paintLabels(shown.labels, colors)) : null),
+    [shown?.labels, colors],
   );
   const header = shown?.data.header;
   const placement = header && fitSlice(header, size.width, size.height);

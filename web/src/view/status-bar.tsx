@@ -1,7 +1,9 @@
+import { titleOf } from "../model/label-rules";
 import { frame, progress } from "../state/frame";
+import { labelColors } from "../state/label-colors";
 import type { FrameHeader, Probe } from "../state/protocol";
 import { viewers } from "../state/session";
-import { labels, volume } from "../state/volume";
+import { volume } from "../state/volume";
 import { pointed } from "./probing";
 
 /** The line below the picture: what is under the pointer, and how far the picture is. */
@@ -37,8 +39,8 @@ function Pointed({ at }: { at: Probe }) {
       )}
       {at.labels?.map((label) => (
         <span key={label.of} class="cell label" title={`Label ${label.value} of ${label.of}`}>
-          <i style={{ background: labels.value[label.of]?.find((one) => one.value === label.value)?.color }} />
-          {label.name}
+          <i style={{ background: labelColors.value[label.of]?.get(label.value)?.color }} />
+          {titleOf(label)}
         </span>
       ))}
     </>

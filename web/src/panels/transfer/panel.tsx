@@ -1,8 +1,9 @@
 import { useState } from "preact/hooks";
+import { toHex } from "../../color";
 import type { Span } from "../../model/axis";
 import { addPoint, pointOpacity, removePoint, replacePoint } from "../../model/curve";
+import { materialColor } from "../../state/label-colors";
 import { edit, newGesture, scene } from "../../state/scene";
-import { hello } from "../../state/session";
 import type { Rule, Scene, TransferPoint } from "../../state/scene-types";
 import { IconButton, Section, Slider } from "../../ui/controls";
 import { Disclosure } from "../../ui/disclosure";
@@ -15,8 +16,9 @@ import { Proxies } from "./proxies";
 import { RuleFields, RuleList } from "./rule-list";
 
 /** Colors of materials for what is drawn of rules. */
-function materialColor(name: string): string {
-  return hello.peek()?.materials.find((material) => material.name === name)?.color ?? "#cccccc";
+function drawnColor(name: string): string {
+  const color = materialColor(name);
+  return color ? toHex(color) : "#cccccc";
 }
 
 /** The function that is edited: points of the scene's own curve, of a rule, or of a rule's column. */
@@ -117,7 +119,7 @@ function FunctionEditor({ of, index }: { of: Scene; index: number }) {
           selected={Math.min(column, rule.columns.length - 1)}
           onSelect={setColumn}
           onChange={(columns, gesture) => edit([[`/transfer/rules/${index}/columns`, columns]], gesture)}
-          materialColor={materialColor}
+          materialColor={drawnColor}
         />
       )}
       <CurveEditor
@@ -131,7 +133,7 @@ function FunctionEditor({ of, index }: { of: Scene; index: number }) {
         selected={chosen}
         onSelect={setSelected}
         onChange={change}
-        materialColor={materialColor}
+        materialColor={drawnColor}
         fine={isFine}
       />
       <PointFields
