@@ -18,8 +18,10 @@ class Slices {
     return this.page.getByRole("group", { name: new RegExp(`^${title} slice`) });
   }
 
+  /** LPS mm: L, P and S are above 0. */
   async mm(title) {
-    return Number((await this.plane(title).getAttribute("aria-label")).match(/at (-?[\d.]+) mm/)[1]);
+    const [, letter, mm] = (await this.plane(title).getAttribute("aria-label")).match(/at ([RLAPIS]) ([\d.]+) mm/);
+    return ("LPS".includes(letter) ? 1 : -1) * Number(mm);
   }
 
   /** Sagittal, coronal, axial: x, y, z. */
@@ -153,6 +155,43 @@ test("a click in the picture takes the slices there, and both read the same valu
     assert.ok(Math.abs(read - probed) <= 5.5, `${read} in the slices, ${probed} in the picture`);
     assert.ok(Math.abs(probed - (1000 + 10 * at[0])) <= 1.1, `${probed} at ${at[0]} mm`);
   }
+});
+
+test("places are told by the patient's sides everywhere, and typed so", async (t) => {
+  // The ramp's box goes from -0.5 to 47.5 mm: its first voxels are at 0, and half a voxel is on the right.
+  const scene = (folder) => {
+    const file = join(folder, "ramp.json");
+    const points = [{ value: 0, opacity: 0.999, color: "#ffffff" }, { value: 5000, opacity: 0.999, color: "#ffffff" }];
+    writeFileSync(file, JSON.stringify({ version: 1, volume: { path: writeRamp(join(folder, "ramp.nrrd")) }, transfer: { points } }));
+    return [file, ...quick];
+  };
+  const slices = await openSlices(t, scene);
+  const { page, viewer } = slices;
+  const place = /^([RL]) ([\d.]+)\s+([AP]) ([\d.]+)\s+([IS]) ([\d.]+) mm$/;
+  assert.match(await page.locator(".slice-position").innerText(), place);
+  await page.getByRole("slider", { name: "Sagittal slice" }).press("Home");
+  await slices.until((at) => at[0] === -0.5, "at the right side");
+  const bar = page.locator(".slice-position");
+  assert.match(await bar.innerText(), /^R 0\.5 /);
+  const readout = slices.plane("Sagittal").locator(".slice-readout");
+  assert.equal(await readout.innerText(), "R 0.5 mm");
+  assert.equal(await page.getByRole("slider", { name: "Sagittal slice" }).getAttribute("aria-valuetext"), "R 0.5 mm");
+  const box = await viewer.canvas.boundingBox();
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.locator(".status-bar .position").waitFor();
+  assert.match(await page.locator(".status-bar .position").innerText(), place);
+
+  await viewer.panel("Camera");
+  const target = page.getByRole("textbox", { name: "Target x", exact: true });
+  for (const [typed, mm, shown] of [["r 12,5", -12.5, "R 12.5"], ["0", 0, "L 0.0"], ["-3", -3, "R 3.0"], ["L 4", 4, "L 4.0"]]) {
+    await target.fill(typed);
+    await target.press("Enter");
+    await viewer.sceneWith((s) => s.camera.target_mm[0] === mm, `a target at ${mm}`);
+    assert.equal(await target.inputValue(), shown);
+  }
+  await target.fill("S 9");
+  await target.press("Enter");
+  assert.equal(await target.inputValue(), "L 4.0", "another axis' letter is taken");
 });
 
 test("labels have the colors of the scene, and hidden ones none", async (t) => {

@@ -47,7 +47,7 @@ test("reads value and position under the pointer", async (t) => {
   const front = center_mm - Math.sqrt(radius_mm ** 2 - 10 ** 2 - 5 ** 2);
   assert.ok(Math.abs(x - (center_mm + 10)) < 0.5 && Math.abs(z - (center_mm - 5)) < 0.5, `${x} ${z}`);
   assert.ok(Math.abs(y - front) < 1, `${y}, not ${front}`);
-  assert.match(await position.innerText(), /L\s+[\d.]+ P\s+[\d.]+ S/);
+  assert.match(await position.innerText(), /^L [\d.]+\s+P [\d.]+\s+S [\d.]+ mm$/);
   const value = Number((await viewer.page.locator(".status-bar .value").innerText()).match(/[\d.]+/)[0]);
   assert.ok(value > 80 && value <= 200, `the surface's value is ${value}`);
   // Beside the ball there is nothing to read.

@@ -1,3 +1,4 @@
+import type { Axis } from "../geometry/orientation";
 import type { Vec3 } from "../state/scene-types";
 
 export type Plane = "axial" | "coronal" | "sagittal";
@@ -10,7 +11,7 @@ export interface PlaneLayout {
   title: string;
   /** The axis that the plane is across, as /api/slice calls it, and its number. */
   axis: "x" | "y" | "z";
-  normal: 0 | 1 | 2;
+  normal: Axis;
   /** Numbers of the axes along columns (to the right) and rows. */
   across: 0 | 1;
   along: 1 | 2;
@@ -113,14 +114,4 @@ export function sampleIndex(layout: PlaneLayout, header: SliceHeader, p: Vec3): 
   const row = Math.round((p[layout.along] - header.origin_mm[1]) / header.spacing_mm);
   if (column < 0 || row < 0 || column >= header.width || row >= header.height) return undefined;
   return row * header.width + column;
-}
-
-/** A position as "R 12.5  A 3.0  S 40.2": letters tell the side, so that no sign has to be remembered. */
-export function describePosition(p: Vec3): string {
-  const sides = [
-    ["R", "L"],
-    ["A", "P"],
-    ["I", "S"],
-  ] as const;
-  return p.map((x, i) => `${sides[i]![x < 0 ? 0 : 1]} ${Math.abs(x).toFixed(1)}`).join("  ");
 }

@@ -127,12 +127,12 @@ export function CameraPanel() {
             />
           </>
         )}
-        <Field label="Target" hint="The point looked at: left, posterior, superior [mm]">
-          {[0, 1, 2].map((i) => (
+        <Field label="Target" hint="The point looked at, mm toward the patient's sides: R or L, A or P, I or S">
+          {([0, 1, 2] as const).map((i) => (
             <NumberInput
               key={i}
               label={`Target ${"xyz"[i]}`}
-              digits={1}
+              axis={i}
               value={target[i]!}
               onChange={(value, gesture) =>
                 edit([["/camera/target_mm", target.map((x, k) => (k === i ? value : x))]], gesture)

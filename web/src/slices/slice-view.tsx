@@ -1,4 +1,5 @@
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
+import { formatCoordinate } from "../geometry/orientation";
 import { newestWins } from "../model/latest";
 import { canvasOf, fitSlice, planes, pointOf, sampleIndex, type Plane } from "../model/slice";
 import { decode, dragWindow } from "../model/window";
@@ -162,6 +163,7 @@ export function SliceView({ plane, overlay }: { plane: Plane; overlay: string })
   };
   const cross = at && header && placement && canvasOf(layout, header, placement, at);
   const { letters } = layout;
+  const place = `${formatCoordinate(layout.normal, mm)} mm`;
   return (
     <div
       ref={root}
@@ -169,7 +171,7 @@ export function SliceView({ plane, overlay }: { plane: Plane; overlay: string })
       style={{ gridArea: plane }}
       tabindex={0}
       role="group"
-      aria-label={`${layout.title} slice at ${mm.toFixed(1)} mm. Arrow keys go through the slices.`}
+      aria-label={`${layout.title} slice at ${place}. Arrow keys go through the slices.`}
       onPointerDown={down}
       onWheel={wheel}
       onKeyDown={keyDown}
@@ -186,7 +188,7 @@ export function SliceView({ plane, overlay }: { plane: Plane; overlay: string })
       <span class="slice-letter top">{letters.top}</span>
       <span class="slice-letter bottom">{letters.bottom}</span>
       <span class={`slice-title ${plane}`}>{layout.title}</span>
-      <span class="slice-readout">{describeSide(layout.normal, mm)}</span>
+      <span class="slice-readout">{place}</span>
       {failure && <span class="slice-failure">{failure}</span>}
       <input
         class="slice-slider"
@@ -195,21 +197,12 @@ export function SliceView({ plane, overlay }: { plane: Plane; overlay: string })
         max={Math.max(1, Math.round((hi - lo) / step))}
         value={Math.round((mm - lo) / step)}
         aria-label={`${layout.title} slice`}
-        aria-valuetext={`${mm.toFixed(1)} mm`}
+        aria-valuetext={place}
         onPointerDown={(event) => event.stopPropagation()}
         onInput={(event) => moveTo(lo + Number(event.currentTarget.value) * step)}
       />
     </div>
   );
-}
-
-function describeSide(normal: 0 | 1 | 2, mm: number): string {
-  const sides = [
-    ["R", "L"],
-    ["A", "P"],
-    ["I", "S"],
-  ] as const;
-  return `${sides[normal][mm < 0 ? 0 : 1]} ${Math.abs(mm).toFixed(1)} mm`;
 }
 
 function bitmapOf(image: ImageData): HTMLCanvasElement {

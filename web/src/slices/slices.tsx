@@ -1,6 +1,6 @@
 import { useEffect } from "preact/hooks";
+import { formatPosition } from "../geometry/orientation";
 import { formatNumber } from "../model/axis";
-import { describePosition } from "../model/slice";
 import { ctWindows } from "../model/window";
 import { crosshair, setCrosshair } from "../state/crosshair";
 import { labels, volume } from "../state/volume";
@@ -90,7 +90,7 @@ export function SliceBar() {
         onClick={() => (dragTool.value = dragTool.value === "window" ? "crosshair" : "window")}
       />
       <span class="slice-position" aria-live="off">
-        {describePosition(at)} mm
+        {formatPosition(at)}
       </span>
       {under && (
         <span class="slice-value">

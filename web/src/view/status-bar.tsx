@@ -1,3 +1,4 @@
+import { formatPosition } from "../geometry/orientation";
 import { titleOf } from "../model/label-rules";
 import { frame, progress } from "../state/frame";
 import { labelColors } from "../state/label-colors";
@@ -8,18 +9,6 @@ import { pointed } from "./probing";
 
 /** The line below the picture: what is under the pointer, and how far the picture is. */
 
-const kSides = [
-  ["R", "L"],
-  ["A", "P"],
-  ["I", "S"],
-] as const;
-
-/** "12.5 L" of an LPS coordinate: without a sign, with the side. */
-function coordinate(mm: number, axis: number): string {
-  const rounded = mm.toFixed(1);
-  return `${rounded.replace("-", "")} ${kSides[axis]![Number(rounded) > 0 ? 1 : 0]}`;
-}
-
 function Pointed({ at }: { at: Probe }) {
   const unit = volume.value?.hounsfield ? " HU" : "";
   const digits = Number.isInteger(at.value) ? 0 : 1;
@@ -29,7 +18,7 @@ function Pointed({ at }: { at: Probe }) {
         class="cell position"
         title="Position under the pointer: distance from the origin toward the patient's side"
       >
-        {at.position_mm?.map(coordinate).join("  ")} mm
+        {at.position_mm && formatPosition(at.position_mm)}
       </span>
       {at.value !== undefined && (
         <span class="cell value">

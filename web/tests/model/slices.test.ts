@@ -1,7 +1,6 @@
 import { describe, expect, it } from "vitest";
 import {
   canvasOf,
-  describePosition,
   fitSlice,
   planeNames,
   planes,
@@ -58,10 +57,6 @@ describe("slices on the screen", () => {
     expect(sampleIndex(planes.axial, header, [-99, -40, 0])).toBe(0);
     expect(sampleIndex(planes.axial, header, [-97.1, -38, 0])).toBe(101);
     expect(sampleIndex(planes.axial, header, [-101, -40, 0])).toBeUndefined();
-  });
-
-  it("tells positions by the patient's sides", () => {
-    expect(describePosition([-12.34, 0, 5])).toBe("R 12.3  P 0.0  S 5.0");
   });
 });
 

@@ -305,12 +305,12 @@ function Region({ entry, at }: { entry: Importance; at: string }) {
         ]}
         onChange={shape}
       />
-      <Field label="Middle" hint="Left, posterior, superior [mm]">
-        {[0, 1, 2].map((i) => (
+      <Field label="Middle" hint="mm toward the patient's sides: R or L, A or P, I or S">
+        {([0, 1, 2] as const).map((i) => (
           <NumberInput
             key={i}
             label={`Middle ${"xyz"[i]}`}
-            digits={1}
+            axis={i}
             value={center[i]!}
             onChange={(value, gesture) =>
               setCenter(
