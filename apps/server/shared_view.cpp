@@ -236,7 +236,13 @@ void SharedView::take(Viewer&, const SeekMessage& message) {
 
 void SharedView::take(Viewer& from, const ProbeMessage& message) {
   Json answer{{"type", "probe"}, {"id", message.id}, {"hit", false}};
-  const auto place = frame_ ? place_in_picture(*frame_->frame, message.x, message.y) : std::nullopt;
+  std::optional<Vec3d> place;
+  if (message.position_mm) {
+    if (volume_ && is_inside(volume_->session->session().volume(), *message.position_mm))
+      place = message.position_mm;
+  } else if (frame_) {
+    place = place_in_picture(*frame_->frame, message.x, message.y);
+  }
   if (!place) return from.send(shared_text(answer));
   work([this, volume = volume_, scene = document_->scene(), place = *place, answer,
         viewer = from.weak_from_this()]() mutable {

@@ -151,6 +151,8 @@ TEST_F(Socket, EditsWhileNothingIsOpenAreRefused) {
   }
   page.send({{"type", "probe"}, {"id", 4}, {"x", 0.5}, {"y", 0.5}});
   EXPECT_EQ(page.next("probe"), json({{"type", "probe"}, {"id", 4}, {"hit", false}}));
+  page.send({{"type", "probe"}, {"id", 5}, {"position_mm", {0, 0, 0}}});
+  EXPECT_EQ(page.next("probe"), json({{"type", "probe"}, {"id", 5}, {"hit", false}}));
 }
 
 TEST_F(Socket, TwoPagesSeeTheSame) {
@@ -398,6 +400,17 @@ TEST_F(Socket, ProbesFindPlaceValueAndLabel) {
             json::array({{{"of", "labels"}, {"value", label}, {"name", label == 1 ? "left" : "right"}}}));
   page.send({{"type", "probe"}, {"id", 8}, {"x", 0}, {"y", 0}});
   EXPECT_EQ(page.next("probe"), json({{"type", "probe"}, {"id", 8}, {"hit", false}}));
+  // The same place by its position, and one between voxels that the picture does not show.
+  page.send({{"type", "probe"}, {"id", 9}, {"position_mm", place}});
+  json again = page.next("probe");
+  again["id"] = 7;
+  EXPECT_EQ(again, hit);
+  page.send({{"type", "probe"}, {"id", 10}, {"position_mm", {-1.25, 2.5, 0.75}}});
+  const json deep = page.next("probe");
+  EXPECT_NEAR(deep["value"].get<double>(), 6.25 + 20 * 10 + 400 * 8.25, 0.01);
+  EXPECT_EQ(deep["labels"][0]["value"], 1);
+  page.send({{"type", "probe"}, {"id", 11}, {"position_mm", {0, 0, 8.1}}});
+  EXPECT_EQ(page.next("probe"), json({{"type", "probe"}, {"id", 11}, {"hit", false}}));
 }
 
 TEST_F(Socket, TroubleIsToldAndTheLastGoodPictureStays) {

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, test } from "node:test";
-import { closeBrowser, headCt, missing, open, quick, writeQuarters, writeRamp } from "./page.mjs";
+import { closeBrowser, headCt, missing, open, quick, writeQuarters, writeRamp, writeWaves } from "./page.mjs";
 
 after(closeBrowser);
 
@@ -150,9 +150,7 @@ test("a click in the picture takes the slices there, and both read the same valu
       return mm.every((x, axis) => Math.abs(Math.abs(x) - Number(text.match(/[\d.]+/g)?.[axis])) < 0.11);
     }, at);
     const probed = parseFloat(await page.locator(".status-bar .value").innerText());
-    const read = parseFloat(await page.locator(".slice-value b").innerText());
-    // A plane is sampled once a voxel at most: half a sample is 5.
-    assert.ok(Math.abs(read - probed) <= 5.5, `${read} in the slices, ${probed} in the picture`);
+    await page.waitForFunction((value) => parseFloat(document.querySelector(".slice-value b")?.innerText) === value, probed);
     assert.ok(Math.abs(probed - (1000 + 10 * at[0])) <= 1.1, `${probed} at ${at[0]} mm`);
   }
 });
@@ -192,6 +190,44 @@ test("places are told by the patient's sides everywhere, and typed so", async (t
   await target.fill("S 9");
   await target.press("Enter");
   assert.equal(await target.inputValue(), "L 4.0", "another axis' letter is taken");
+});
+
+test("values under the pointer are those between the samples, labels those of the nearest voxel", async (t) => {
+  const scene = (folder) => {
+    const points = [{ value: 0, opacity: 0.999, color: "#ffffff" }, { value: 5000, opacity: 0.999, color: "#ffffff" }];
+    const proxies = [{ name: "quarters", path: writeQuarters(join(folder, "quarters.nrrd")), lookup: "nearest" }];
+    const file = join(folder, "waves.json");
+    writeFileSync(file, JSON.stringify({ version: 1, volume: { path: writeWaves(join(folder, "waves.nrrd")) }, proxies, transfer: { points } }));
+    return [file, ...quick];
+  };
+  const slices = await openSlices(t, scene);
+  const { page } = slices;
+  const [x, y] = await slices.middle("Coronal");
+  let before = "";
+  const pointed = async (dx, dy) => {
+    await page.mouse.move(x + dx, y + dy);
+    await page.waitForFunction((text) => {
+      const now = document.querySelector(".status-bar .position")?.innerText;
+      return now && now !== text;
+    }, before);
+    before = await page.locator(".status-bar .position").innerText();
+    const [along, , up] = before.match(/[\d.]+/g).map(Number);
+    return { along, up, value: parseFloat(await page.locator(".status-bar .value").innerText()) };
+  };
+  // Samples of the plane are 1 mm apart, its voxels 1.7: at their centres are the kinks that samples miss.
+  for (let i = 0; i < 16; ++i) {
+    const { up, value } = await pointed(0, 3 * i);
+    const wave = 1000 * (1 - Math.abs(1 - ((up / 1.7) % 2)));
+    // The place is told to 0.1 mm, which is 29 at most.
+    assert.ok(Math.abs(value - wave) < 35, `${value} at ${up} mm, not ${wave}`);
+  }
+  // The middle, 23.5 mm, is the border between the labels 2 and 3.
+  for (const dx of [-3, 4, -20, 20]) {
+    const { along } = await pointed(dx, 1);
+    await page.locator(".status-bar .label").getByText(along < 23.5 ? "Label 2" : "Label 3").waitFor();
+  }
+  await page.mouse.move(0, 0);
+  await page.locator(".status-bar .position").waitFor({ state: "detached" });
 });
 
 test("labels have the colors of the scene, and hidden ones none", async (t) => {

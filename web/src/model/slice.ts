@@ -107,11 +107,3 @@ export function pointOf(
   p[layout.along] = header.origin_mm[1] + header.spacing_mm * (row - 0.5);
   return p;
 }
-
-/** Number of the sample at a point, undefined outside. */
-export function sampleIndex(layout: PlaneLayout, header: SliceHeader, p: Vec3): number | undefined {
-  const column = Math.round((p[layout.across] - header.origin_mm[0]) / header.spacing_mm);
-  const row = Math.round((p[layout.along] - header.origin_mm[1]) / header.spacing_mm);
-  if (column < 0 || row < 0 || column >= header.width || row >= header.height) return undefined;
-  return row * header.width + column;
-}

@@ -1,16 +1,17 @@
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import { formatCoordinate } from "../geometry/orientation";
 import { newestWins } from "../model/latest";
-import { canvasOf, fitSlice, planes, pointOf, sampleIndex, type Plane } from "../model/slice";
-import { decode, dragWindow } from "../model/window";
+import { canvasOf, fitSlice, planes, pointOf, type Plane } from "../model/slice";
+import { dragWindow } from "../model/window";
 import { crosshair, setCrosshair } from "../state/crosshair";
 import type { Vec3 } from "../state/scene-types";
 import { labelColors } from "../state/label-colors";
-import { labels, volume } from "../state/volume";
+import { volume } from "../state/volume";
 import { startDrag } from "../ui/drag";
+import { pointAt } from "../view/probing";
 import { fetchSlice, type Slice } from "./fetch-slice";
 import { paintGrey, paintLabels } from "./paint";
-import { dragTool, overlayOpacity, setWindow, sliceWindow, underCrosshair } from "./state";
+import { dragTool, overlayOpacity, setWindow, sliceWindow } from "./state";
 
 /** A slice of the data at `mm` with the labels there. */
 interface Shown {
@@ -66,7 +67,6 @@ export function SliceView({ plane, overlay }: { plane: Plane; overlay: string })
   }, []);
 
   const grey = useMemo(() => shown && bitmapOf(paintGrey(shown.data, window)), [shown?.data, window]);
-  const names = labels.value[overlay];
   const colors = labelColors.value[overlay];
   const tint = useMemo(
     () => (shown?.labels && colors ? bitmapOf(paintLabels(shown.labels, colors)) : null),
@@ -104,19 +104,6 @@ export function SliceView({ plane, overlay }: { plane: Plane; overlay: string })
     }
   }, [grey, tint, size, overlayOpacity.value]);
 
-  useEffect(() => {
-    // Planes that are sampled apart would differ by noise: one of them speaks for all.
-    if (plane !== "axial" || !at || !shown) return;
-    const value = valueAt(shown.data, shown.mm, at, plane);
-    const label = shown.labels && Math.round(valueAt(shown.labels, shown.mm, at, plane) ?? 0);
-    const known = label ? names?.find((one) => one.value === label) : undefined;
-    if (Math.abs(at[layout.normal] - shown.mm) < 1e-6)
-      underCrosshair.value =
-        value === undefined
-          ? null
-          : { value, label: known?.name.replaceAll("_", " ") || (label ? `Label ${label}` : "") };
-  }, [shown, at, names]);
-
   if (!facts) return <div ref={root} class="slice" style={{ gridArea: plane }} />;
   const lo = facts.bounds_mm[0][layout.normal];
   const hi = facts.bounds_mm[1][layout.normal];
@@ -125,7 +112,7 @@ export function SliceView({ plane, overlay }: { plane: Plane; overlay: string })
     const now = crosshair.peek();
     if (now) setCrosshair(now.map((x, i) => (i === layout.normal ? value : x)) as unknown as Vec3);
   };
-  const pointAt = (event: MouseEvent): Vec3 | null => {
+  const pointAtEvent = (event: MouseEvent): Vec3 | null => {
     if (!header || !placement) return null;
     const box = root.current!.getBoundingClientRect();
     return pointOf(layout, header, placement, mm, event.clientX - box.left, event.clientY - box.top);
@@ -140,16 +127,17 @@ export function SliceView({ plane, overlay }: { plane: Plane; overlay: string })
       );
       return;
     }
-    const first = pointAt(event);
+    const first = pointAtEvent(event);
     if (event.button !== 0 || !first) return;
     setCrosshair(first);
     startDrag(event, {
       move: ({ event: moved }) => {
-        const p = pointAt(moved);
+        const p = pointAtEvent(moved);
         if (p) setCrosshair(p);
       },
     });
   };
+  const hover = (event: PointerEvent) => pointAt(event.buttons === 0 ? pointAtEvent(event) : null);
   const wheel = (event: WheelEvent) => {
     event.preventDefault();
     moveTo(mm - Math.sign(event.deltaY) * step * (event.shiftKey ? 10 : 1));
@@ -173,6 +161,8 @@ export function SliceView({ plane, overlay }: { plane: Plane; overlay: string })
       role="group"
       aria-label={`${layout.title} slice at ${place}. Arrow keys go through the slices.`}
       onPointerDown={down}
+      onPointerMove={hover}
+      onPointerLeave={() => pointAt(null)}
       onWheel={wheel}
       onKeyDown={keyDown}
       onContextMenu={(event) => event.preventDefault()}
@@ -211,13 +201,6 @@ function bitmapOf(image: ImageData): HTMLCanvasElement {
   bitmap.height = image.height;
   bitmap.getContext("2d")!.putImageData(image, 0, 0);
   return bitmap;
-}
-
-/** What a slice has under the crosshair; only while it is the one through it. */
-function valueAt(slice: Slice, mm: number, at: Vec3, plane: Plane): number | undefined {
-  if (Math.abs(at[planes[plane].normal] - mm) > 1e-6) return undefined;
-  const index = sampleIndex(planes[plane], slice.header, at);
-  return index === undefined ? undefined : decode(slice.header, slice.samples[index]!);
 }
 
 /** Lines in the colors of the planes that they are, open in the middle so that what is marked stays in sight. */

@@ -28,6 +28,3 @@ export const dragTool = signal<"crosshair" | "window">("crosshair");
 /** The label volume that is laid over the slices (a proxy's name or "labels"); "": none, null: the first there is. */
 export const overlayVolume = signal<string | null>(null);
 export const overlayOpacity = signal(0.45);
-
-/** What the data and the labels have at the crosshair, by the axial plane; null until that is there. */
-export const underCrosshair = signal<{ value: number; label: string } | null>(null);

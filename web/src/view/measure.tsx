@@ -52,7 +52,7 @@ export function cancelMeasuring(): void {
 
 /** A click of the tool at a place of the view area. */
 export async function setEnd(x: number, y: number): Promise<void> {
-  const place = (await probeAt(x, y))?.position_mm;
+  const place = (await probeAt({ x, y }))?.position_mm;
   if (!place) return showToast({ text: "Nothing there to measure: click on the volume." });
   if (!begun.value) {
     begun.value = place;
@@ -63,7 +63,7 @@ export async function setEnd(x: number, y: number): Promise<void> {
 }
 
 async function moveEnd(id: number, end: "a" | "b", x: number, y: number): Promise<void> {
-  const place = (await probeAt(x, y))?.position_mm;
+  const place = (await probeAt({ x, y }))?.position_mm;
   if (place) measurements.value = measurements.value.map((one) => (one.id === id ? { ...one, [end]: place } : one));
 }
 

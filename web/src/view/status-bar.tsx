@@ -1,4 +1,5 @@
 import { formatPosition } from "../geometry/orientation";
+import { formatValue } from "../model/axis";
 import { titleOf } from "../model/label-rules";
 import { frame, progress } from "../state/frame";
 import { labelColors } from "../state/label-colors";
@@ -9,9 +10,11 @@ import { pointed } from "./probing";
 
 /** The line below the picture: what is under the pointer, and how far the picture is. */
 
+/** Not what no label marks. */
+const isMarked = ({ value }: { value: number }) => value !== 0;
+
 function Pointed({ at }: { at: Probe }) {
-  const unit = volume.value?.hounsfield ? " HU" : "";
-  const digits = Number.isInteger(at.value) ? 0 : 1;
+  const facts = volume.value;
   return (
     <>
       <span
@@ -20,13 +23,8 @@ function Pointed({ at }: { at: Probe }) {
       >
         {at.position_mm && formatPosition(at.position_mm)}
       </span>
-      {at.value !== undefined && (
-        <span class="cell value">
-          {at.value.toFixed(digits)}
-          {unit}
-        </span>
-      )}
-      {at.labels?.map((label) => (
+      {facts && at.value != null && <span class="cell value">{formatValue(at.value, facts)}</span>}
+      {at.labels?.filter(isMarked).map((label) => (
         <span key={label.of} class="cell label" title={`Label ${label.value} of ${label.of}`}>
           <i style={{ background: labelColors.value[label.of]?.get(label.value)?.color }} />
           {titleOf(label)}

@@ -35,13 +35,13 @@ export function View() {
         if (measuring.peek()) return void setEnd(at.x, at.y);
         pointAt(at);
         if (layout.peek() !== "slices") return;
-        const place = (await probeAt(at.x, at.y))?.position_mm;
+        const place = (await probeAt(at))?.position_mm;
         if (place) setCrosshair(place);
       },
       doubleClick: async (x, y) => {
         const at = inArea(x, y);
         if (measuring.peek()) return;
-        const place = (await probeAt(at.x, at.y))?.position_mm;
+        const place = (await probeAt(at))?.position_mm;
         if (place) setTarget(place);
       },
     });

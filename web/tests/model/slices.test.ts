@@ -5,7 +5,6 @@ import {
   planeNames,
   planes,
   pointOf,
-  sampleIndex,
   type SliceHeader,
 } from "../../src/model/slice";
 import { decode, dragWindow, greyTable, percentileWindow } from "../../src/model/window";
@@ -51,12 +50,6 @@ describe("slices on the screen", () => {
     const [x, y] = canvasOf(layout, header, placement, p);
     const back = pointOf(layout, header, placement, p[layout.normal], x, y);
     back.forEach((value, i) => expect(value).toBeCloseTo(p[i]!));
-  });
-
-  it("finds samples by their centres", () => {
-    expect(sampleIndex(planes.axial, header, [-99, -40, 0])).toBe(0);
-    expect(sampleIndex(planes.axial, header, [-97.1, -38, 0])).toBe(101);
-    expect(sampleIndex(planes.axial, header, [-101, -40, 0])).toBeUndefined();
   });
 });
 
