@@ -15,7 +15,7 @@ class Slices {
   }
 
   plane(title) {
-    return this.page.getByRole("group", { name: new RegExp(`^${title} slice`) });
+    return this.page.getByRole("application", { name: new RegExp(`^${title} slice`) });
   }
 
   /** LPS mm: L, P and S are above 0. */
@@ -82,6 +82,20 @@ class Slices {
       await this.page.waitForTimeout(30);
     }
     throw new Error(`${title} at ${across}, ${down} is ${color}, never ${wanted}`);
+  }
+
+  /** CSS px of 1 mm by the plane's scale bar. */
+  async scale(title) {
+    const bar = this.plane(title).locator(".scale-bar");
+    const [length, unit] = (await bar.locator("text").textContent()).split(" ");
+    const path = await bar.locator("path").last().getAttribute("d");
+    return Number(path.match(/h([\d.]+)/)[1]) / (Number(length) * { mm: 1, cm: 10 }[unit]);
+  }
+
+  /** CSS px from the plane's left and top edge to the crosshair. */
+  async cross(title) {
+    const [vertical, horizontal] = await this.plane(title).locator(".slice-crosshair path").evaluateAll((paths) => paths.map((path) => path.getAttribute("d")));
+    return [Number(vertical.match(/^M([-\d.]+) /)[1]), Number(horizontal.match(/^M0 ([-\d.]+)/)[1])];
   }
 
   async middle(title) {
@@ -271,6 +285,69 @@ test("labels have the colors of the scene, and hidden ones none", async (t) => {
   await viewer.button("Hide Label 1").click();
   await viewer.sceneWith((s) => s.transfer.rules.some((rule) => rule.points.some((p) => p.value === 1 && p.mu_t_per_mm)), "a hidden label");
   for (let tries = 0; !isGrey(await slices.color("Axial", ...at(0.1))); ++tries) assert.ok(tries < 100, "the label is still painted");
+});
+
+test("the panes have one scale, are zoomed and moved together, and go back", async (t) => {
+  const slices = await openSlices(t, [headCt, ...quick]);
+  const { page, viewer } = slices;
+  const scales = async () => [await slices.scale("Axial"), await slices.scale("Coronal"), await slices.scale("Sagittal")];
+  const alike = (list) => assert.ok(Math.max(...list) / Math.min(...list) < 1 + 1e-6, `${list} px a mm`);
+  const [first, ...others] = await scales();
+  alike([first, ...others]);
+  // The bar is as long as it says: the crosshair of a click 40 px from the middle has gone 40 px / scale.
+  // Whole pixels, as mice have them.
+  const [x, y] = (await slices.middle("Axial")).map(Math.round);
+  await page.mouse.click(x, y);
+  const middle = await slices.until((at) => Math.abs(at[0]) < 1000, "anywhere");
+  await page.mouse.click(x + 40, y);
+  const aside = await slices.until((at) => at[0] !== middle[0], "aside");
+  assert.ok(Math.abs((aside[0] - middle[0]) * first - 40) < 0.11 * first + 0.01, `${aside[0] - middle[0]} mm for 40 px at ${first} px a mm`);
+  // All of every plane is seen: the whole volume has room.
+  const { bounds_mm } = await page.evaluate(async () => (await fetch("/api/volume")).json());
+  for (const [title, across, along] of [["Axial", 0, 1], ["Coronal", 0, 2], ["Sagittal", 1, 2]]) {
+    const box = await slices.plane(title).boundingBox();
+    assert.ok((bounds_mm[1][across] - bounds_mm[0][across]) * first <= box.width + 1 && (bounds_mm[1][along] - bounds_mm[0][along]) * first <= box.height + 1, title);
+  }
+
+  const reset = page.getByRole("button", { name: "Show all of every slice" });
+  assert.ok(await reset.isDisabled());
+  const still = await slices.cross("Axial");
+  await page.mouse.move(x + 40, y);
+  await page.keyboard.down("Control");
+  await page.mouse.wheel(0, -100);
+  await page.keyboard.up("Control");
+  await page.waitForFunction(() => !document.querySelector("[aria-label='Show all of every slice']").disabled);
+  const near = await scales();
+  alike(near);
+  assert.ok(near[0] > 1.3 * first, `${near[0]} px a mm, was ${first}`);
+  assert.deepEqual(await slices.at(), aside, "zooming goes through the slices");
+  // What is under the pointer stays there.
+  const zoomed = await slices.cross("Axial");
+  assert.ok(Math.hypot(zoomed[0] - still[0], zoomed[1] - still[1]) < 0.6, `${still} became ${zoomed}`);
+
+  const coronal = await slices.cross("Coronal");
+  await viewer.drag([24, 0], { from: [x, y], button: "middle" });
+  const moved = await slices.cross("Axial");
+  assert.ok(Math.abs(moved[0] - zoomed[0] - 24) < 0.6 && Math.abs(moved[1] - zoomed[1]) < 0.6, `${zoomed} went to ${moved}`);
+  assert.ok(Math.abs((await slices.cross("Coronal"))[0] - coronal[0] - 24) < 0.6, "the coronal plane does not follow");
+  assert.deepEqual(await slices.at(), aside, "moving moves the crosshair");
+  await page.keyboard.down("Shift");
+  await viewer.drag([-10, 6], { from: [x, y] });
+  await page.keyboard.up("Shift");
+  assert.ok(Math.abs((await slices.cross("Axial"))[1] - moved[1] - 6) < 0.6);
+
+  await reset.click();
+  assert.deepEqual(await scales(), [first, ...others]);
+  assert.ok(await reset.isDisabled());
+  const { camera } = await viewer.scene();
+  await slices.plane("Coronal").focus();
+  await page.keyboard.press("+");
+  await page.waitForFunction(() => !document.querySelector("[aria-label='Show all of every slice']").disabled);
+  assert.ok((await slices.scale("Sagittal")) > 1.2 * first);
+  await page.keyboard.press("f");
+  await page.waitForFunction(() => document.querySelector("[aria-label='Show all of every slice']").disabled);
+  assert.deepEqual(await scales(), [first, ...others]);
+  assert.deepEqual((await viewer.scene()).camera, camera, "the picture was zoomed, too");
 });
 
 test("the window is dragged, typed and taken from presets", { skip: missing("head-ct.nrrd") }, async (t) => {

@@ -172,6 +172,10 @@ export const pointerHelp: readonly { keys: string; what: string }[] = [
   { keys: "Alt + drag, twist", what: "Roll" },
   { keys: "Double click, double tap", what: "Orbit around this point" },
   { keys: "Click, beside slices", what: "Slices through this point" },
+  { keys: "Wheel, arrows, Page Up and Down on a slice", what: "Through the slices" },
+  { keys: "Ctrl + wheel, pinch, + and - on a slice", what: "Zoom of all slices; F takes it back" },
+  { keys: "Middle or Shift + drag on a slice", what: "Move all slices" },
+  { keys: "Right drag on a slice", what: "Level and window" },
   { keys: "Wheel or Shift + drag on a light", what: "Its distance" },
 ];
 

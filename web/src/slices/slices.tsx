@@ -20,7 +20,9 @@ import {
   initialWindow,
   overlayOpacity,
   overlayVolume,
+  resetSlices,
   setWindow,
+  slicesMoved,
   sliceWindow,
 } from "./state";
 
@@ -109,6 +111,13 @@ export function SliceBar() {
         label="Drag changes brightness and contrast (else the right button does)"
         pressed={dragTool.value === "window"}
         onClick={() => (dragTool.value = dragTool.value === "window" ? "crosshair" : "window")}
+      />
+      <IconButton
+        icon="reset"
+        label="Show all of every slice"
+        keys="F on a slice"
+        disabled={!slicesMoved.value}
+        onClick={resetSlices}
       />
       <span class="slice-position" aria-live="off">
         {formatPosition(at)}
