@@ -350,6 +350,74 @@ test("the panes have one scale, are zoomed and moved together, and go back", asy
   assert.deepEqual((await viewer.scene()).camera, camera, "the picture was zoomed, too");
 });
 
+test("distances are measured in the slices, by pointer and by keys, and are shown where they lie", async (t) => {
+  const slices = await openSlices(t, (folder) => {
+    const file = join(folder, "ramp.json");
+    const points = [{ value: 0, opacity: 0.999, color: "#ffffff" }, { value: 5000, opacity: 0.999, color: "#ffffff" }];
+    writeFileSync(file, JSON.stringify({ version: 1, volume: { path: writeRamp(join(folder, "ramp.nrrd")) }, transfer: { points } }));
+    return [file, ...quick];
+  });
+  const { page, viewer } = slices;
+  const voice = page.getByRole("status", { name: "Measuring" });
+  const at = await slices.at();
+  const lines = async () => {
+    const of = (title) => slices.plane(title).locator(".measurement").count();
+    return [await of("Axial"), await of("Coronal"), await of("Sagittal"), await page.locator(".view .measurement").count()];
+  };
+  const untilLines = async (wanted) => {
+    for (let tries = 0; JSON.stringify(await lines()) !== JSON.stringify(wanted); ++tries) {
+      assert.ok(tries < 100, `lines of axial, coronal, sagittal and picture: ${await lines()}, not ${wanted}`);
+      await page.waitForTimeout(30);
+    }
+  };
+  const lengthIn = async (title) => parseFloat(await slices.plane(title).locator(".measurement .tag-text").textContent());
+  const scale = await slices.scale("Axial");
+  await page.keyboard.press("m");
+  const [x, y] = await slices.middle("Axial");
+  await page.mouse.click(x - 40, y);
+  await voice.filter({ hasText: /^First end at/ }).waitFor();
+  await page.mouse.click(x + 40, y);
+  // Across the crosshair from right to left: in the axial and the coronal plane, and across the sagittal one.
+  await untilLines([1, 1, 0, 1]);
+  assert.ok(Math.abs((await lengthIn("Axial")) - 80 / scale) < 0.06, `${await lengthIn("Axial")} mm of 80 px at ${scale} px a mm`);
+  assert.equal(await lengthIn("Coronal"), await lengthIn("Axial"));
+  assert.deepEqual(await slices.at(), at, "measuring has moved the crosshair");
+  await viewer.drag([20, 0], { from: [x + 40, y] });
+  await page.waitForFunction(([mm]) => Math.abs(parseFloat(document.querySelector(".slice .tag-text")?.textContent) - mm) < 0.06, [100 / scale]);
+
+  await slices.plane("Axial").focus();
+  await page.keyboard.press("PageUp");
+  await untilLines([0, 1, 0, 1]);
+  await page.keyboard.press("PageDown");
+  await untilLines([1, 1, 0, 1]);
+
+  // From the crosshair up and down in the sagittal plane, by keys alone; that lies in the coronal plane, too.
+  await slices.plane("Sagittal").focus();
+  for (let i = 0; i < 3; ++i) await page.keyboard.press("Shift+ArrowUp");
+  await slices.plane("Sagittal").locator(".key-cursor").waitFor();
+  await page.keyboard.press("Enter");
+  await voice.filter({ hasText: /^First end at/ }).waitFor();
+  for (let i = 0; i < 6; ++i) await page.keyboard.press("Shift+ArrowDown");
+  await voice.filter({ hasText: /^[\d.]+ mm$/ }).waitFor();
+  await page.keyboard.press("Enter");
+  await voice.filter({ hasText: /^Distance/ }).waitFor();
+  const told = parseFloat((await voice.innerText()).match(/[\d.]+/)[0]);
+  assert.ok(Math.abs(told - 60 / scale) < 0.06, `${told} mm of 60 px at ${scale} px a mm`);
+  await untilLines([1, 2, 1, 2]);
+  await page.keyboard.press("Delete");
+  await untilLines([1, 1, 0, 1]);
+  await page.keyboard.press("Escape");
+  await page.getByText("Click two points").waitFor({ state: "detached" });
+  assert.deepEqual(await slices.at(), at, "the keys have gone through the slices");
+  await page.keyboard.press("ArrowUp");
+  await slices.until((now) => now[0] > at[0], "one slice on");
+  // Beside the volume there is nothing to measure.
+  await page.keyboard.press("m");
+  const box = await slices.plane("Axial").boundingBox();
+  await page.mouse.click(box.x + 30, box.y + box.height / 2 + 60);
+  await page.getByText("Nothing there to measure").waitFor();
+});
+
 test("the window is dragged, typed and taken from presets", { skip: missing("head-ct.nrrd") }, async (t) => {
   const slices = await openSlices(t, [headCt, ...quick]);
   const { page, viewer } = slices;

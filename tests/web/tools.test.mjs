@@ -85,6 +85,56 @@ test("measures a distance that is known, and its end can be moved", async (t) =>
   assert.deepEqual((await viewer.scene()).camera, scene.camera, "measuring has moved the camera");
 });
 
+test("keys alone measure a distance, whose length is told", async (t) => {
+  const viewer = await openBall(t);
+  const { page } = viewer;
+  const view = page.getByRole("application", { name: /^View of the volume/ });
+  const voice = page.getByRole("status", { name: "Measuring" });
+  const { camera } = await viewer.scene();
+  await view.focus();
+  await page.keyboard.press("m");
+  assert.match(await view.getAttribute("aria-label"), /Arrow keys move the cursor/);
+  const far = async (key, times) => {
+    for (let i = 0; i < times; ++i) await page.keyboard.press(`Shift+${key}`);
+  };
+  // From the ball's middle 100 px to the left.
+  await far("ArrowLeft", 10);
+  await page.locator(".view .key-cursor").waitFor();
+  await voice.filter({ hasText: /^[LR] [\d.]+\s+[AP] [\d.]+\s+[SI] [\d.]+ mm$/ }).waitFor();
+  await page.keyboard.press("Enter");
+  await voice.filter({ hasText: /^First end at [LR] [\d.]+/ }).waitFor();
+  await far("ArrowRight", 20);
+  for (let i = 0; i < 5; ++i) await page.keyboard.press("ArrowRight");
+  // What the line that is begun would have is told before its second end is set.
+  await voice.filter({ hasText: /^[\d.]+ mm$/ }).waitFor();
+  await page.keyboard.press("Enter");
+  await voice.filter({ hasText: /^Distance [\d.]+ mm$/ }).waitFor();
+  const length = parseFloat((await voice.innerText()).match(/[\d.]+/)[0]);
+  assert.equal(await page.locator(".measurement .tag-text").textContent(), `${length.toFixed(1)} mm`);
+  // The ends are 205 px apart on the screen, one 5 px deeper in the ball's curve than the other.
+  const across = 205 / (await pxPerMm(viewer));
+  assert.ok(length >= across - 0.3 && length <= across + 0.5, `${length} mm, not ${across}`);
+
+  await far("ArrowUp", 2);
+  await page.keyboard.press("Enter");
+  await voice.filter({ hasText: /^First end at/ }).waitFor();
+  await page.keyboard.press("Escape");
+  await voice.filter({ hasText: "First end dropped" }).waitFor();
+  await page.keyboard.press("Delete");
+  await page.locator(".measurement").waitFor({ state: "detached" });
+  await page.keyboard.press("Escape");
+  await page.getByText("Click two points").waitFor({ state: "detached" });
+  await page.locator(".key-cursor").waitFor({ state: "detached" });
+  assert.deepEqual((await viewer.scene()).camera, camera, "the keys have moved the camera");
+  await page.keyboard.press("ArrowLeft");
+  await viewer.sceneWith((s) => s.camera.azimuth_deg !== camera.azimuth_deg, "the arrow keys orbiting again");
+  // From the button in the toolbar, too, the keys are the picture's.
+  await viewer.page.getByRole("button", { name: "Measure distances" }).focus();
+  await page.keyboard.press("Enter");
+  await page.keyboard.press("ArrowLeft");
+  await page.locator(".view .key-cursor").waitFor();
+});
+
 test("the scale bar is as long as it says", async (t) => {
   const viewer = await openBall(t, { resolution: 1 });
   const mmOf = (label) => parseFloat(label) * { mm: 1, cm: 10, m: 1000, "µm": 0.001 }[label.split(" ")[1]];

@@ -34,7 +34,8 @@ const sides = [
   ["I", "S"],
 ] as const;
 
-/** A coordinate [LPS mm] by the patient's side, without a sign: "R 12.5". What rounds to 0 is "L 0.0", "P 0.0", "S 0.0". */
+/** A coordinate [LPS mm] by the patient's side, without a sign: "R 12.5". What rounds to 0 is "L 0.0", "P 0.0" or
+ * "S 0.0". */
 export function formatCoordinate(axis: Axis, mm: number): string {
   const rounded = Number(mm.toFixed(1));
   return `${sides[axis][rounded < 0 ? 0 : 1]} ${Math.abs(rounded).toFixed(1)}`;

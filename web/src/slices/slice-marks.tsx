@@ -1,9 +1,11 @@
 import { canvasOf, planes, type PaneView, type Plane } from "../model/slice";
 import { crosshair } from "../state/crosshair";
+import type { MeasuringPane } from "../view/distances";
+import { Distances } from "../view/measure";
 import { ScaleMark } from "../view/scale-bar";
 
 /** What is drawn over a slice. */
-export function SliceMarks({ plane, pane }: { plane: Plane; pane: PaneView }) {
+export function SliceMarks({ plane, pane, measured }: { plane: Plane; pane: PaneView; measured: MeasuringPane }) {
   const at = crosshair.value;
   if (!at || pane.width <= 1) return null;
   const [x, y] = canvasOf(planes[plane], pane, at);
@@ -11,6 +13,7 @@ export function SliceMarks({ plane, pane }: { plane: Plane; pane: PaneView }) {
     <svg class="overlay">
       <Crosshair x={x} y={y} pane={pane} plane={plane} />
       <ScaleMark x={16} y={pane.height - 12} pxPerMm={pane.pxPerMm} room_px={pane.width} where="in the slice" />
+      <Distances pane={measured} />
     </svg>
   );
 }

@@ -3,8 +3,9 @@ import { formatCoordinate } from "../geometry/orientation";
 import { planes, type Plane, type Size } from "../model/slice";
 import { crosshair } from "../state/crosshair";
 import { volume } from "../state/volume";
+import { measuring } from "../view/distances";
 import { pointAt } from "../view/probing";
-import { goToSlice, sliceInput, sliceStep_mm } from "./slice-input";
+import { goToSlice, sliceInput, slicePane, sliceStep_mm } from "./slice-input";
 import { SliceMarks } from "./slice-marks";
 import { SlicePicture } from "./slice-picture";
 import { dragTool, paneView, setPaneSize } from "./state";
@@ -29,6 +30,10 @@ function usePaneSize(plane: Plane, root: { current: HTMLDivElement | null }): Si
   return size;
 }
 
+const sliceKeys = "Arrow keys go through the slices, plus and minus zoom.";
+const measuringKeys =
+  "Arrow keys move the cursor, Enter sets an end of a distance, Page Up and Down go through the slices.";
+
 /** One plane with the crosshair: wheel, keys and slider go through it, clicks move the crosshair. */
 export function SliceView({ plane, overlay }: { plane: Plane; overlay: string }) {
   const layout = planes[plane];
@@ -47,11 +52,11 @@ export function SliceView({ plane, overlay }: { plane: Plane; overlay: string })
   return (
     <div
       ref={root}
-      class={dragTool.value === "window" ? "slice windowing" : "slice"}
+      class={`slice ${dragTool.value === "window" ? "windowing" : ""} ${measuring.value ? "measuring" : ""}`}
       style={{ gridArea: plane }}
       tabindex={0}
       role="application"
-      aria-label={`${layout.title} slice at ${place}. Arrow keys go through the slices, plus and minus zoom.`}
+      aria-label={`${layout.title} slice at ${place}. ${measuring.value ? measuringKeys : sliceKeys}`}
       onPointerDown={input.down}
       onPointerMove={input.hover}
       onPointerLeave={() => pointAt(null)}
@@ -60,7 +65,7 @@ export function SliceView({ plane, overlay }: { plane: Plane; overlay: string })
       onContextMenu={(event) => event.preventDefault()}
     >
       <SlicePicture layout={layout} pane={pane} shown={shown} overlay={overlay} />
-      <SliceMarks plane={plane} pane={pane} />
+      <SliceMarks plane={plane} pane={pane} measured={slicePane(plane, pane, mm, facts)} />
       <span class="slice-letter left">{letters.left}</span>
       <span class="slice-letter right">{letters.right}</span>
       <span class="slice-letter top">{letters.top}</span>
