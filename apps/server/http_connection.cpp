@@ -26,8 +26,8 @@ constexpr auto kFarewell = std::chrono::seconds(3);
 
 std::string_view text(beast::string_view view) { return {view.data(), view.size()}; }
 
-template <class Request>
-std::string_view field(const Request& request, http::field name) {
+template <class Request, class Name>
+std::string_view field(const Request& request, Name name) {
   const auto found = request.find(name);
   return found == request.end() ? std::string_view() : text(found->value());
 }
@@ -87,7 +87,8 @@ std::optional<Reply> HttpConnection::refusal(const Request& request, const Targe
     return error_reply(Status::forbidden, "this viewer has another address; open the one that it printed");
   const bool foreign =
       request.count(http::field::origin) > 0 && !is_same_origin(field(request, http::field::origin), host);
-  if (foreign) return error_reply(Status::forbidden, "another site's page may not ask this viewer");
+  if (foreign || !may_ask(field(request, "Sec-Fetch-Site"), target.path))
+    return error_reply(Status::forbidden, "another site's page may not ask this viewer");
   if (request.method() == http::verb::get && target.path == "/" && target.query.contains("token") &&
       parts_.access.is_token(target.value("token"))) {
     Reply reply;
