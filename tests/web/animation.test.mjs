@@ -1,6 +1,6 @@
 // Keyframes, and films of them.
 import assert from "node:assert/strict";
-import { writeFileSync } from "node:fs";
+import { chmodSync, mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, test } from "node:test";
 import { closeBrowser, headCt, open, psnr, quick, readFileSync } from "./page.mjs";
@@ -93,4 +93,57 @@ test("a film that takes long can be given up", async (t) => {
   await viewer.button("Cancel").click();
   await viewer.button("Export").waitFor();
   assert.equal(await viewer.page.getByRole("link", { name: /^Save / }).count(), 0);
+});
+
+test("movies are offered where ffmpeg is, and said to need it elsewhere", async (t) => {
+  const without = await open(t, [headCt, ...quick, "--turntable"], { environment: { PATH: "/nowhere" } });
+  await without.done();
+  await without.panel("Animation");
+  const format = (viewer) => viewer.page.getByLabel("Format");
+  assert.equal(await format(without).inputValue(), "zip");
+  const options = await format(without).locator("option").evaluateAll((all) => all.map((one) => `${one.disabled} ${one.textContent}`));
+  assert.deepEqual(options, ["true mp4: install ffmpeg", "true webm: install ffmpeg", "false PNG (zip)"]);
+  assert.match(await format(without).getAttribute("title"), /install ffmpeg/);
+
+  // An ffmpeg that makes a file of the words it was given.
+  const bin = join(without.scratch, "bin");
+  mkdirSync(bin);
+  writeFileSync(join(bin, "ffmpeg"), '#!/bin/sh\nfor last; do :; done\nfor word; do echo "$word"; done > "$last"\n');
+  chmodSync(join(bin, "ffmpeg"), 0o755);
+  const viewer = await open(t, [headCt, ...quick, "--turntable", "0.2"], { environment: { PATH: `${bin}:/usr/bin:/bin` }, resolution: 0.25 });
+  await viewer.done();
+  await viewer.panel("Animation");
+  assert.equal(await format(viewer).inputValue(), "mp4");
+  for (const [kind, coder] of [["mp4", "libx264"], ["webm", "libvpx-vp9"]]) {
+    await format(viewer).selectOption(kind);
+    await viewer.button("Export").click();
+    const save = viewer.page.getByRole("link", { name: new RegExp(`^Save .*\\.${kind}$`) });
+    await save.waitFor({ timeout: 60000 });
+    const [download] = await Promise.all([viewer.page.waitForEvent("download"), save.click()]);
+    await download.saveAs(join(viewer.scratch, kind));
+    assert.match(readFileSync(join(viewer.scratch, kind), "utf8"), new RegExp(coder));
+  }
+});
+
+test("a turntable beside keyframes of the camera says so and offers a way out", async (t) => {
+  const viewer = await open(t, [headCt, ...quick], { resolution: 0.25 });
+  await viewer.done();
+  await viewer.panel("Animation");
+  await viewer.button("Keyframe").click();
+  await viewer.page.keyboard.press("3");
+  await viewer.sceneWith((s) => Math.abs(s.camera.azimuth_deg - 90) < 1e-6, "the view from the left");
+  await viewer.button("Keyframe").click();
+  await viewer.sceneWith((s) => s.animation?.tracks?.[0]?.keys.length === 2, "two keyframes");
+  const note = viewer.page.getByText(/turns the camera in addition/);
+  assert.equal(await note.count(), 0);
+  await viewer.button("Turntable: once around in 6 s").click();
+  await note.waitFor();
+  await viewer.button("Remove the turntable").first().click();
+  const keyframes = await viewer.sceneWith((s) => !s.animation.turntable, "no turntable");
+  assert.equal(keyframes.animation.tracks[0].keys.length, 2);
+  await viewer.undo();
+  await note.waitFor();
+  await viewer.button("Replace the keyframes").click();
+  await viewer.sceneWith((s) => s.animation.turntable && !s.animation.tracks?.length, "the turntable alone");
+  await note.waitFor({ state: "detached" });
 });
