@@ -67,6 +67,7 @@ export function View() {
       ref={area}
       class={measuring.value ? "view measuring" : "view"}
       tabindex={0}
+      inert={!scene.value}
       role="application"
       aria-label="View of the volume. Arrow keys orbit, plus and minus zoom, question mark lists all keys."
     >
