@@ -1,5 +1,6 @@
 // Keyframes, and films of them.
 import assert from "node:assert/strict";
+import { execFileSync, spawnSync } from "node:child_process";
 import { chmodSync, mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, test } from "node:test";
@@ -122,6 +123,53 @@ test("movies are offered where ffmpeg is, and said to need it elsewhere", async 
     const [download] = await Promise.all([viewer.page.waitForEvent("download"), save.click()]);
     await download.saveAs(join(viewer.scratch, kind));
     assert.match(readFileSync(join(viewer.scratch, kind), "utf8"), new RegExp(coder));
+  }
+});
+
+const noFfmpeg = spawnSync("ffprobe", ["-version"]).status === 0 ? false : "without ffmpeg";
+
+test("movies have all frames, and the browser plays them", { skip: noFfmpeg }, async (t) => {
+  // Sides that are odd: colors at half the resolution need even ones.
+  const viewer = await open(t, [headCt, ...quick, "--turntable", "1", "--fps", "12"], { resolution: 0.25, size: [1283, 721] });
+  await viewer.done();
+  await viewer.panel("Animation");
+  await viewer.done();
+  const { image } = await viewer.scene();
+  for (const [kind, codec] of [["mp4", "h264"], ["webm", "vp9"]]) {
+    await viewer.page.getByLabel("Format").selectOption(kind);
+    await viewer.button("Export").click();
+    const save = viewer.page.getByRole("link", { name: new RegExp(`^Save .*\\.${kind}$`) });
+    await save.waitFor({ timeout: 60000 });
+    const [download] = await Promise.all([viewer.page.waitForEvent("download"), save.click()]);
+    const file = join(viewer.scratch, `film.${kind}`);
+    await download.saveAs(file);
+    const { streams, format } = JSON.parse(execFileSync("ffprobe", ["-v", "error", "-count_frames", "-show_streams", "-show_format", "-of", "json", file], { encoding: "utf8" }));
+    const [video] = streams;
+    assert.equal(streams.length, 1);
+    assert.equal(video.codec_name, codec);
+    assert.equal(Number(video.nb_read_frames), 12);
+    assert.deepEqual([video.width, video.height], [image.width, image.height].map((side) => 2 * Math.floor(side / 2)));
+    assert.equal(video.pix_fmt, "yuv420p");
+    assert.deepEqual([video.color_space, video.color_primaries, video.color_transfer, video.color_range], ["bt709", "bt709", "bt709", "tv"]);
+    assert.equal(video.avg_frame_rate, "12/1");
+    assert.ok(Math.abs(Number(format.duration) - 1) < 0.01, `${format.duration} s`);
+    const frames = join(viewer.scratch, `${kind}-%d.png`);
+    execFileSync("ffmpeg", ["-v", "error", "-i", file, frames]);
+    assert.ok(psnr(frames.replace("%d", "1"), frames.replace("%d", "7")) < 30, "the camera stands still");
+    const player = await viewer.page.context().newPage();
+    const played = await player.evaluate(async (source) => {
+      const video = document.createElement("video");
+      const ended = new Promise((resolve) => {
+        video.onended = () => resolve("played");
+        video.onerror = () => resolve(video.error.message);
+      });
+      video.muted = true;
+      video.src = source;
+      await video.play().catch(() => undefined);
+      return [await ended, video.videoWidth, video.videoHeight];
+    }, `data:video/${kind};base64,${readFileSync(file).toString("base64")}`);
+    await player.close();
+    assert.deepEqual(played, ["played", video.width, video.height]);
   }
 });
 

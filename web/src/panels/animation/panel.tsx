@@ -263,7 +263,8 @@ function Export({ frames, name }: { frames: number; name: string }) {
       <span class="bar-group" role="status">
         <progress value={share} aria-label="Writing the animation" />
         <span class="time">
-          {state.frames_done} <small>/ {state.frames}</small>
+          {state.frames_done < state.frames ? state.frames_done : "Writing the file,"}{" "}
+          <small>{state.frames_done < state.frames ? `/ ${state.frames}` : `${state.frames} frames`}</small>
         </span>
         <Button onClick={() => send({ type: "cancel_export" })}>Cancel</Button>
       </span>
