@@ -13,6 +13,9 @@
 #include "voxlume/error.h"
 
 namespace voxlume::server {
+
+namespace fs = std::filesystem;
+
 namespace {
 
 using nlohmann::json;
@@ -52,10 +55,11 @@ json failure(const std::optional<PageMessage>& message, std::string_view text, c
 
 }  // namespace
 
-SharedView::SharedView(boost::asio::io_context& io, Settings settings, Roots roots)
+SharedView::SharedView(boost::asio::io_context& io, Settings settings, Roots roots, Uploads& uploads)
     : io_(io),
       settings_(std::move(settings)),
       roots_(std::move(roots)),
+      uploads_(uploads),
       still_timer_(io),
       thumbnails_(io),
       exports_(io, settings_.program, settings_.temporary / "exports",
@@ -203,6 +207,7 @@ void SharedView::take(Viewer&, const RedoMessage&) {
 
 void SharedView::take(Viewer&, const LoadMessage& message) {
   SceneDescription scene = parse_scene(text_of(message.scene), "scene");
+  find_uploads(scene, {});
   roots_.resolve_paths(scene, document_ ? scene_paths(document_->scene()) : std::set<std::string>{});
   keep_screen_size(scene);
   if (!document_ || !(scene.volume == document_->scene().volume)) return open(scene);
@@ -213,9 +218,11 @@ void SharedView::take(Viewer&, const LoadMessage& message) {
 
 void SharedView::take(Viewer&, const OpenMessage& message) {
   if (message.path == kPhantomPath) return open(fresh_scene(std::string(kPhantomPath)));
-  const std::filesystem::path path = roots_.resolve_to_open(message.path);
+  const std::filesystem::path path =
+      roots_.resolve_to_open(uploads_.opened_as(roots_.resolve(message.path)).string());
   if (lower_extension(path) != ".json") return open(fresh_scene(path.string()));
   SceneDescription scene = read_scene(path);
+  find_uploads(scene, path.parent_path());
   roots_.resolve_paths(scene);
   keep_screen_size(scene);
   open(scene);
@@ -266,6 +273,23 @@ void SharedView::take(Viewer& from, const ShownMessage& message) { from.shown(me
 Document& SharedView::open_document() {
   if (!document_) throw Error(ErrorCode::kBadParameter, "", "nothing is open");
   return *document_;
+}
+
+void SharedView::find_uploads(SceneDescription& scene, const fs::path& scene_folder) const {
+  const bool is_file = !scene_folder.empty();
+  for_each_path(scene, [&](std::string& path) {
+    const fs::path given = fs::path(path).lexically_normal();
+    if (is_file ? given.parent_path() != scene_folder : given.has_parent_path()) return;
+    const fs::path place = is_file ? given : roots_.folder() / given;
+    const fs::path uploaded = uploads_.find(given.filename().string());
+    std::error_code failed;
+    const bool there = fs::exists(fs::symlink_status(place, failed));
+    if (there && (is_file || uploaded.empty())) return;
+    if (uploaded.empty())
+      throw Error(ErrorCode::kFileNotFound, given.filename().string(),
+                  "no such file beside the scene; drop it on the page first, then load the scene again");
+    path = uploaded.string();
+  });
 }
 
 SceneDescription SharedView::fresh_scene(const std::string& path) const {

@@ -25,6 +25,7 @@ TEST_F(Socket, HelloComesFirstAndSaysWhatThereIs) {
   const json hello = page.next();
   ASSERT_EQ(hello["type"], "hello");
   EXPECT_EQ(hello["folder"], "files");
+  EXPECT_TRUE(hello["movies"].is_boolean());
   EXPECT_EQ(hello["samples"].back()["path"], "phantom");
   EXPECT_EQ(hello["environments"][0]["name"], "sky");
   for (const char* list : {"presets", "materials", "denoisers"}) {

@@ -35,6 +35,8 @@ export interface Hello {
   environments: { name: string; path: string }[];
   samples: (Named & { path: string })[];
   folder: string;
+  /** Whether there is an ffmpeg to write movies with. */
+  movies: boolean;
 }
 
 export interface SceneMessage {

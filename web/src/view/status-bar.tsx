@@ -100,7 +100,7 @@ export function StatusBar() {
           <span class="cell dim">{volume.value ? "Point at the volume to read its values" : ""}</span>
         )}
       </div>
-      <div class="work" aria-label="Progress of the picture">
+      <div class="work" role="group" aria-label="Progress of the picture">
         {viewers.value > 1 && <span class="cell dim">{viewers.value} viewers</span>}
         {header && <Work header={header} />}
       </div>

@@ -73,6 +73,7 @@ export function View() {
       ref={area}
       class={measuring.value ? "view measuring" : "view"}
       tabindex={0}
+      inert={!scene.value}
       role="application"
       aria-label={`View of the volume. ${measuring.value ? measuringKeys : viewKeys} Question mark lists all keys.`}
     >

@@ -5,7 +5,7 @@ import { addPoint, pointOpacity, removePoint, replacePoint } from "../../model/c
 import { materialColor } from "../../state/label-colors";
 import { edit, newGesture, scene } from "../../state/scene";
 import type { Rule, Scene, TransferPoint } from "../../state/scene-types";
-import { IconButton, Section, Slider } from "../../ui/controls";
+import { IconButton, Section } from "../../ui/controls";
 import { Disclosure } from "../../ui/disclosure";
 import { CurveEditor } from "./curve-editor";
 import { useDomain } from "./domain";
@@ -14,6 +14,13 @@ import { PointFields } from "./point-fields";
 import { Presets } from "./presets";
 import { Proxies } from "./proxies";
 import { RuleFields, RuleList } from "./rule-list";
+import { numberFields } from "../number-fields";
+
+/** Name, range, unit and step of what all points share. */
+const TransferNumber = numberFields("/transfer", {
+  density_scale: { label: "Density", hint: "Multiplies the extinction of all matter", min: 0.01, max: 100, hardMin: 0, hardMax: 1e6, logarithmic: true, digits: 3, initial: 1 },
+  reference_length_mm: { label: "Thickness of the opacities", hint: "A layer this thick has the opacity of the curve", unit: "mm", min: 0.01, max: 20, hardMin: 1e-6, hardMax: 1e6, logarithmic: true, digits: 3 },
+});
 
 /** Colors of materials for what is drawn of rules. */
 function drawnColor(name: string): string {
@@ -153,33 +160,9 @@ function Density({ of }: { of: Scene }) {
   const { density_scale, reference_length_mm } = of.transfer;
   return (
     <>
-      <Slider
-        label="Density"
-        hint="Multiplies the extinction of all matter"
-        min={0.01}
-        max={100}
-        hardMin={0}
-        hardMax={1e6}
-        logarithmic
-        digits={3}
-        initial={1}
-        value={density_scale}
-        onChange={(value, gesture) => edit([["/transfer/density_scale", value]], gesture)}
-      />
+      <TransferNumber name="density_scale" value={density_scale} />
       <Disclosure label="What opacities refer to">
-        <Slider
-          label="Thickness of the opacities"
-          hint="A layer this thick has the opacity of the curve"
-          unit="mm"
-          min={0.01}
-          max={20}
-          hardMin={1e-6}
-          hardMax={1e6}
-          logarithmic
-          digits={3}
-          value={reference_length_mm ?? 1}
-          onChange={(value, gesture) => edit([["/transfer/reference_length_mm", value]], gesture)}
-        />
+        <TransferNumber name="reference_length_mm" value={reference_length_mm ?? 1} />
       </Disclosure>
     </>
   );
