@@ -149,17 +149,28 @@ Json Document::become(Accepted accepted, const std::string& gesture) {
   if (forward.empty()) return changed;  // a size alone is no step, and ends no gesture
   redone_.clear();
   Json backward = differences(after, before);
-  if (!gesture.empty() && !undone_.empty() && undone_.back().gesture == gesture) {
-    backward.update(undone_.back().before);
-    undone_.back().before = std::move(backward);
-    undone_.back().after.update(forward);
+  Step* step = step_of(gesture, forward);
+  if (step != nullptr) {
+    backward.update(step->before);
+    step->before = std::move(backward);
+    step->after.update(forward);
   } else {
-    undone_.push_back({std::move(backward), forward, gesture});
+    step = &undone_.emplace_back(Step{std::move(backward), forward, gesture});
   }
-  Step& step = undone_.back();
-  step.bytes = step.before.dump().size() + step.after.dump().size();
+  step->bytes = step->before.dump().size() + step->after.dump().size();
   forget_oldest();
   return changed;
+}
+
+Document::Step* Document::step_of(const std::string& gesture, const Json& changed) {
+  if (gesture.empty()) return nullptr;
+  for (auto step = undone_.rbegin(); step != undone_.rend(); ++step) {
+    if (step->gesture == gesture) return &*step;
+    // Taking the later step back must leave these members alone.
+    for (const auto& [key, value] : changed.items())
+      if (step->after.contains(key)) return nullptr;
+  }
+  return nullptr;
 }
 
 void Document::forget_oldest() {
@@ -190,7 +201,7 @@ bool Document::take_step(std::deque<Step>& from, std::deque<Step>& to, Json Step
   from.back().gesture.clear();
   to.push_back(std::move(from.back()));
   from.pop_back();
-  if (!undone_.empty()) undone_.back().gesture.clear();
+  for (Step& step : undone_) step.gesture.clear();
   return true;
 }
 

@@ -35,7 +35,8 @@ class Document {
   bool can_undo() const { return !undone_.empty(); }
   bool can_redo() const { return !redone_.empty(); }
 
-  /// Sets fields, all or nothing. Edits in a row with the same non-empty `gesture` are one step of undo.
+  /// Sets fields, all or nothing. Edits with the same non-empty `gesture` are one step of undo, unless in
+  /// between another edit changed the same top-level members, or something was undone.
   /// Returns the top-level members that are different now, null where one is gone; empty: nothing changed.
   /// Throws Error, its where() the field's address ("/transfer/points/2/value").
   nlohmann::json edit(const std::vector<FieldEdit>& fields, const std::string& gesture = "");
@@ -48,7 +49,7 @@ class Document {
   bool redo();
 
  private:
-  /// Top-level members before and after; null where there was none.
+  /// The same top-level members before and after; null where there was none.
   struct Step {
     nlohmann::json before, after;
     std::string gesture;
@@ -62,6 +63,8 @@ class Document {
   Accepted accept(SceneDescription scene) const;
   nlohmann::json become(Accepted accepted, const std::string& gesture);
   bool take_step(std::deque<Step>& from, std::deque<Step>& to, nlohmann::json Step::*members);
+  /// The step that an edit of `gesture`, which changed these members, belongs to; null: a new one.
+  Step* step_of(const std::string& gesture, const nlohmann::json& changed);
   void forget_oldest();
 
   Rules rules_;

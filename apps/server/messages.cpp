@@ -124,6 +124,7 @@ PageMessage parse_message(std::string_view frame) {
   if (type == "probe") return read_probe(message);
   if (type == "export") return ExportMessage{text(member(message, "file"), "/file")};
   if (type == "cancel_export") return CancelExportMessage{};
+  if (type == "draw_presets") return DrawPresetsMessage{};
   if (type == "shown")
     return ShownMessage{
         static_cast<std::uint64_t>(number(member(message, "frame"), "/frame", 0, 9007199254740991.0))};

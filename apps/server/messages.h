@@ -42,13 +42,14 @@ struct ExportMessage {
   std::string file;
 };
 struct CancelExportMessage {};
+struct DrawPresetsMessage {};
 struct ShownMessage {
   std::uint64_t frame = 0;
 };
 
 using PageMessage =
     std::variant<EditMessage, UndoMessage, RedoMessage, LoadMessage, OpenMessage, SplitMessage, SeekMessage,
-                 ProbeMessage, ExportMessage, CancelExportMessage, ShownMessage>;
+                 ProbeMessage, ExportMessage, CancelExportMessage, DrawPresetsMessage, ShownMessage>;
 
 /// Reads a text frame. Throws Error: kBadFormat where it is no JSON object of bounded depth, kBadParameter
 /// where a member is missing or wrong; where() is the member ("/set/0/0"). A member that is not known is

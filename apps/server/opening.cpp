@@ -57,6 +57,8 @@ void Opening::read(const SceneDescription& scene, std::uint64_t number) {
     opened->session = std::make_unique<LiveSession>(scene, std::move(volume),
                                                     session_listener(number, opened->numbering), options_);
     opened->sides = std::make_unique<SideVolumes>(opened->session->session().volume());
+    const Session& session = opened->session->session();
+    opened->joint = std::make_unique<JointHistograms>(session.volume(), session.statistics());
     tell(number, [this, number, opened] {
       shown_ = number;
       listener_.opened(opened);

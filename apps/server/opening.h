@@ -9,6 +9,7 @@
 
 #include "render/live_session.h"
 #include "server/frame_message.h"
+#include "server/joint_histograms.h"
 #include "server/side_volumes.h"
 
 namespace voxlume::server {
@@ -18,6 +19,7 @@ struct OpenedVolume {
   std::string name;  ///< of its file or folder
   std::unique_ptr<LiveSession> session;
   std::unique_ptr<SideVolumes> sides;         ///< what its scenes have beside it
+  std::unique_ptr<JointHistograms> joint;     ///< of it and those
   std::shared_ptr<FrameNumbering> numbering;  ///< set before the first frame is asked for
 };
 

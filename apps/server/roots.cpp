@@ -48,13 +48,17 @@ fs::path Roots::resolve(const std::string& text) const {
 
 fs::path Roots::resolve_to_open(const std::string& text) const {
   const fs::path path = resolve(text);
+  const bool is_named = std::find(roots_.begin() + 1, roots_.end(), path) != roots_.end();
+  if (is_named) return path;
   std::error_code failed;
-  if (!fs::is_regular_file(path, failed)) return path;
-  for (const std::string& name : files_named_in_header(path)) {
-    const fs::path data = fs::weakly_canonical(path.parent_path() / name, failed);
+  const bool is_folder = fs::is_directory(path, failed);
+  for (const fs::path& other : is_folder ? links_in_folder(path) : files_named_in_header(path)) {
+    const fs::path data = fs::weakly_canonical(other, failed);
     if (failed || !contains(data))
       throw Error(ErrorCode::kBadParameter, text,
-                  "its voxels are in a file outside the folders of this viewer");
+                  is_folder
+                      ? other.filename().string() + " in it is a file outside the folders of this viewer"
+                      : "its voxels are in a file outside the folders of this viewer");
   }
   return path;
 }

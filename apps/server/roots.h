@@ -26,8 +26,8 @@ class Roots {
   /// where there is no file or folder. What is outside gets the same answer whether it exists or not.
   std::filesystem::path resolve(const std::string& text) const;
 
-  /// The same for a file that is to be opened: what its header names as the file of its voxels must be inside
-  /// as well.
+  /// The same for a volume that is to be opened: what a file's header names as the files of its voxels, and
+  /// what links in a folder lead to, must be inside as well. Not so of what was added itself.
   std::filesystem::path resolve_to_open(const std::string& text) const;
 
   /// Makes every path of `scene` absolute and canonical by resolve_to_open(). Paths that `trusted` has as

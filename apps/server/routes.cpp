@@ -43,7 +43,7 @@ Status status_of(ErrorCode code) {
 /// Whether the request is about what is open.
 bool is_of_volume(const std::string& name) {
   for (const char* known :
-       {"volume", "labels", "histogram", "slice", "picture.png", "picture.exr", "scene.json"})
+       {"volume", "labels", "histogram", "histogram2", "slice", "picture.png", "picture.exr", "scene.json"})
     if (name == known) return true;
   return name.starts_with("preset/");
 }
@@ -131,6 +131,7 @@ void Routes::api(const Target& target, const Respond& respond) const {
     });
   if (name == "labels") return labels(respond);
   if (name == "histogram") return histogram(target, respond);
+  if (name == "histogram2") return joint_histogram(target, respond);
   if (name == "slice") return slice(target, respond);
   if (name == "picture.png" || name == "picture.exr") return picture(name.substr(7), respond);
   if (name == "scene.json") return respond(scene_file());
@@ -163,6 +164,15 @@ void Routes::labels(const Respond& respond) const {
 void Routes::histogram(const Target& target, const Respond& respond) const {
   work(respond, [volume = view_.volume(), scene = view_.document()->scene(), of = target.value("of")] {
     return json_reply(text_of(histogram_json(volume->sides->find(scene, of)->statistics)));
+  });
+}
+
+void Routes::joint_histogram(const Target& target, const Respond& respond) const {
+  work(respond, [volume = view_.volume(), scene = view_.document()->scene(), x = target.value("x"),
+                 y = target.value("y")] {
+    Reply reply = json_reply("");
+    reply.body = volume->joint->find(*volume->sides, scene, x, y);
+    return reply;
   });
 }
 
@@ -215,13 +225,10 @@ Reply Routes::scene_file() const {
 
 Reply Routes::thumbnail(const std::string& preset) const {
   Reply reply;
-  reply.body = view_.thumbnail(preset);
-  if (reply.body) {
-    reply.type = "image/png";
-    return reply;
-  }
-  reply = error_reply(Status::service_unavailable, "it is being drawn; ask again");
-  reply.headers.emplace_back("Retry-After", "1");
+  const auto png = view_.thumbnails().find(preset);
+  if (!png) return error_reply(Status::not_found, "there is no such picture, or it is not drawn yet");
+  reply.body = png;
+  reply.type = "image/png";
   return reply;
 }
 

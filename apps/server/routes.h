@@ -23,6 +23,7 @@ class Routes {
   void work(const Respond& respond, std::function<Reply()> job) const;
   void labels(const Respond& respond) const;
   void histogram(const Target& target, const Respond& respond) const;
+  void joint_histogram(const Target& target, const Respond& respond) const;
   void slice(const Target& target, const Respond& respond) const;
   void picture(const std::string& extension, const Respond& respond) const;
   Reply scene_file() const;

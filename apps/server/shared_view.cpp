@@ -36,6 +36,8 @@ json status_json(const std::string& stage, const std::string& name, const std::s
   return out;
 }
 
+json preset_drawn(const std::string& preset) { return {{"type", "preset_drawn"}, {"name", preset}}; }
+
 /// What a page is told whose message could not be followed; `message` is absent where it could not be read.
 json failure(const std::optional<PageMessage>& message, std::string_view text, const Error& error) {
   if (message) {
@@ -61,9 +63,9 @@ SharedView::SharedView(boost::asio::io_context& io, Settings settings, Roots roo
       roots_(std::move(roots)),
       uploads_(uploads),
       still_timer_(io),
-      thumbnails_(io),
+      thumbnails_(io, [this](const std::string& preset) { tell_all(preset_drawn(preset)); }),
       exports_(io, settings_.program, settings_.temporary / "exports",
-               [this](const Json& m) { tell_all(m); }),
+               [this](const Json& m) { take_export_state(m); }),
       opening_(io, settings_.live,
                {.status = [this](const auto&... of) { set_status(of...); },
                 .opened = [this](std::shared_ptr<OpenedVolume> volume) { opened(std::move(volume)); },
@@ -105,6 +107,7 @@ void SharedView::opened(std::shared_ptr<OpenedVolume> volume) {
   thumbnails_.forget();
   watch_or_rest();
   volume_->session->set_split(split_);
+  volume_->session->set_yielding(exporting_);
   set_status("ready", volume_->name, "");
   show();
   tell_scene();
@@ -180,9 +183,8 @@ void SharedView::receive(Viewer& viewer, std::string_view text) {
 void SharedView::take(Viewer& from, const EditMessage& message) {
   Document& document = open_document();
   // A gesture is one viewer's; two may call theirs alike.
-  const std::string gesture = message.gesture.empty()
-                                  ? ""
-                                  : std::to_string(reinterpret_cast<std::uintptr_t>(&from)) + message.gesture;
+  const std::string gesture =
+      message.gesture.empty() ? "" : std::to_string(from.page_number()) + " " + message.gesture;
   const Json sections = document.edit(message.set, gesture);
   if (!sections.empty()) show();
   if (sections.contains("image"))
@@ -268,6 +270,12 @@ void SharedView::take(Viewer&, const ExportMessage& message) {
 
 void SharedView::take(Viewer&, const CancelExportMessage&) { exports_.cancel(); }
 
+void SharedView::take(Viewer& from, const DrawPresetsMessage&) {
+  const SceneDescription& scene = open_document().scene();
+  for (const std::string& preset : thumbnails_.draw_all(*volume_, scene))
+    from.send(shared_text(preset_drawn(preset)));
+}
+
 void SharedView::take(Viewer& from, const ShownMessage& message) { from.shown(message.frame); }
 
 Document& SharedView::open_document() {
@@ -306,6 +314,12 @@ void SharedView::take_frame(const FrameMessage& frame) {
   if (is_current_still(frame)) hand_out_stills(frame.frame);
 }
 
+void SharedView::take_export_state(const Json& message) {
+  exporting_ = message["state"] == "running";
+  if (volume_) volume_->session->set_yielding(exporting_);
+  tell_all(message);
+}
+
 void SharedView::watch_or_rest() {
   if (volume_) volume_->session->set_watched(!viewers_.empty() || !awaiting_still_.empty());
 }
@@ -331,11 +345,6 @@ void SharedView::hand_out_stills(const std::shared_ptr<const LiveFrame>& frame) 
   still_timer_.cancel();
   for (const auto& use : std::exchange(awaiting_still_, {})) use(frame);
   watch_or_rest();
-}
-
-std::shared_ptr<const std::string> SharedView::thumbnail(const std::string& preset) {
-  const SceneDescription& scene = open_document().scene();
-  return thumbnails_.find(preset, *volume_, scene);
 }
 
 std::filesystem::path SharedView::temporary_file(const std::string& extension) {

@@ -55,6 +55,8 @@ class SharedView {
   /// Ends what other processes do; after this no file is written any more.
   void end();
 
+  /// Another one for every page; what pages call alike is told apart by it.
+  std::uint64_t next_page_number() { return ++page_numbers_; }
   std::size_t viewer_count() const { return viewers_.size(); }
   /// Null while none is open.
   std::shared_ptr<OpenedVolume> volume() const { return volume_; }
@@ -64,9 +66,7 @@ class SharedView {
   /// A name for a file that is removed at the latest at the end; another one every time.
   std::filesystem::path temporary_file(const std::string& extension);
 
-  /// The picture of a preset; null while it is not drawn. Throws Error, those of Thumbnails::find() and of
-  /// nothing being open.
-  std::shared_ptr<const std::string> thumbnail(const std::string& preset);
+  const Thumbnails& thumbnails() const { return thumbnails_; }
   /// Calls `use` with the picture of the scene as it is now at its full size, as soon as there is one; with
   /// null where that takes too long.
   void with_still_picture(std::function<void(std::shared_ptr<const LiveFrame>)> use);
@@ -86,6 +86,7 @@ class SharedView {
   void take(Viewer& from, const ProbeMessage& message);
   void take(Viewer& from, const ExportMessage& message);
   void take(Viewer& from, const CancelExportMessage&);
+  void take(Viewer& from, const DrawPresetsMessage&);
   void take(Viewer& from, const ShownMessage& message);
 
   /// Throws Error while nothing is open.
@@ -94,6 +95,7 @@ class SharedView {
   SceneDescription fresh_scene(const std::string& path) const;
   void opened(std::shared_ptr<OpenedVolume> volume);
   void take_frame(const FrameMessage& frame);
+  void take_export_state(const Json& message);
   void watch_or_rest();
   bool is_current_still(const FrameMessage& frame) const;
   void hand_out_stills(const std::shared_ptr<const LiveFrame>& frame);
@@ -116,10 +118,12 @@ class SharedView {
   Roots roots_;
   Uploads& uploads_;
   std::map<const Viewer*, std::shared_ptr<Viewer>> viewers_;
+  std::uint64_t page_numbers_ = 0;
 
   std::shared_ptr<OpenedVolume> volume_;
   std::optional<Document> document_;
   std::uint64_t revision_ = 0;  ///< what was asked for last, as viewers know it
+  bool exporting_ = false;      ///< an animation is being rendered
   std::optional<FrameMessage> frame_;
   std::uint64_t last_frame_ = 0;  ///< number of the newest frame, as viewers know it
   Json status_;

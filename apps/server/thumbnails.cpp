@@ -33,23 +33,35 @@ std::shared_ptr<const std::string> coded(const Image8& picture) {
 
 }  // namespace
 
-std::shared_ptr<const std::string> Thumbnails::find(const std::string& name, OpenedVolume& volume,
-                                                    const SceneDescription& scene) {
-  try {
-    find_preset(name);
-  } catch (const Error& error) {
-    throw Error(ErrorCode::kFileNotFound, "", error.message());
-  }
-  if (const auto found = drawn_->pictures.find(name); found != drawn_->pictures.end()) return found->second;
-  const SceneDescription small = volume.session->resolved(small_scene(scene, name));
-  drawn_->pictures[name] = nullptr;
-  volume.session->draw_aside(small, kSpp, [&io = io_, drawn = drawn_, name](const Image8& picture) {
-    // Called by the session's thread.
-    boost::asio::post(io, [drawn, name, png = coded(picture)] {
-      png ? void(drawn->pictures[name] = png) : void(drawn->pictures.erase(name));
+std::vector<std::string> Thumbnails::draw_all(OpenedVolume& volume, const SceneDescription& scene) {
+  std::vector<std::string> there;
+  for (const Preset& preset : presets()) {
+    const std::string name(preset.name);
+    if (const auto found = drawn_->pictures.find(name); found != drawn_->pictures.end()) {
+      if (found->second) there.push_back(name);
+      continue;
+    }
+    SceneDescription small;
+    try {
+      small = volume.session->resolved(small_scene(scene, name));
+    } catch (const Error&) {
+      continue;  // a density, say, that this preset cannot be drawn with
+    }
+    drawn_->pictures[name] = nullptr;
+    volume.session->draw_aside(small, kSpp, [this, &io = io_, drawn = drawn_, name](const Image8& picture) {
+      // Called by the session's thread, which may end later than this object.
+      boost::asio::post(io, [this, drawn, name, png = coded(picture)] {
+        png ? void(drawn->pictures[name] = png) : void(drawn->pictures.erase(name));
+        if (png && drawn == drawn_) told_(name);
+      });
     });
-  });
-  return nullptr;
+  }
+  return there;
+}
+
+std::shared_ptr<const std::string> Thumbnails::find(const std::string& name) const {
+  const auto found = drawn_->pictures.find(name);
+  return found == drawn_->pictures.end() ? nullptr : found->second;
 }
 
 void Thumbnails::forget() { drawn_ = std::make_shared<Drawn>(); }

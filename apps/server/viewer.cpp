@@ -35,7 +35,11 @@ bool RateLimit::take(Time now) {
 }
 
 Viewer::Viewer(beast::tcp_stream stream, SharedView& view, std::shared_ptr<void> token)
-    : socket_(std::move(stream)), view_(view), token_(std::move(token)), rate_(kMessagesPerSecond, kBurst) {}
+    : socket_(std::move(stream)),
+      view_(view),
+      page_number_(view.next_page_number()),
+      token_(std::move(token)),
+      rate_(kMessagesPerSecond, kBurst) {}
 
 void Viewer::accept(const Request& request) {
   auto& stream = beast::get_lowest_layer(socket_);

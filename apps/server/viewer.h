@@ -47,6 +47,9 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
   /// Answers the request to become a WebSocket; then the view knows of this viewer until it is gone.
   void accept(const Request& request);
 
+  /// No other page has or had it.
+  std::uint64_t page_number() const { return page_number_; }
+
   void send(std::shared_ptr<const std::string> text);
   /// As send(), but only while nothing waits: the next one of its kind says it all again.
   void send_if_idle(std::shared_ptr<const std::string> text);
@@ -65,6 +68,7 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
 
   boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
   SharedView& view_;
+  const std::uint64_t page_number_;
   const std::shared_ptr<void> token_;
   boost::beast::flat_buffer read_;
   RateLimit rate_;

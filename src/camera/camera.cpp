@@ -14,6 +14,8 @@ namespace {
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 constexpr double kMaxLength_mm = 1e9;
+/// Of target and eye from the volume, so that no sum of two such lengths is beyond the other limit.
+constexpr double kMostAway_mm = 5e8;
 
 void require(bool holds, const char* name, const std::string& found, const std::string& expected) {
   if (!holds)
@@ -30,10 +32,38 @@ void require_positive(double x, const char* name) {
   require(x > 0 && x <= kMaxLength_mm, name, fmt::to_string(x), "a number in (0, 1e9]");
 }
 
-Vec3d checked(const Double3& v, const char* name) {
+Vec3d checked_place(const Double3& v, const char* name) {
   for (double x : v)
-    require(std::abs(x) <= kMaxLength_mm, name, fmt::to_string(x), "three numbers within +-1e9");
+    require(std::abs(x) <= kMostAway_mm, name, fmt::format("a place {:.4g} mm from the volume", std::abs(x)),
+            "one within 5e8 mm");
   return {v[0], v[1], v[2]};
+}
+
+Vec3d checked_direction(const Double3& v, const char* name) {
+  for (double x : v) require(std::isfinite(x), name, fmt::to_string(x), "three finite numbers");
+  const Vec3d out(v[0], v[1], v[2]);
+  const double size = max_component(max(out, -out));
+  require(size > 0, name, "a zero vector", "a direction");
+  return out / size;
+}
+
+/// Distance at which the eye sees the sphere of fit_radius_mm at its zoom. Where that is out of reach, the
+/// field is refused that contributes most; radius_mm is that of what there is to see.
+double checked_fit_distance(const CameraDescription& d, double fit_radius_mm, double radius_mm,
+                            double tan_half_smaller) {
+  const double distance = fit_radius_mm / (std::sin(std::atan(tan_half_smaller)) * d.zoom);
+  if (distance <= kMostAway_mm) return distance;
+  const double by_zoom = 1 / d.zoom, by_angle = 15 / d.vertical_fov_deg,
+               by_radius = fit_radius_mm / radius_mm;
+  const double most = std::max({by_zoom, by_angle, by_radius});
+  const auto refuse = [&](const char* name, double found) {
+    require(false, name, fmt::to_string(found),
+            fmt::format("one that puts the eye within 5e8 mm of the target, not at {:.2g} mm", distance));
+  };
+  if (most == by_zoom) refuse("zoom", d.zoom);
+  if (most == by_angle) refuse("vertical_fov_deg", d.vertical_fov_deg);
+  refuse("fit_radius_mm", fit_radius_mm);
+  return distance;
 }
 
 void validate(const CameraDescription& d) {
@@ -64,13 +94,13 @@ Pose orbit(const CameraDescription& d, Vec3d target, double distance) {
 }
 
 Pose place_at_eye(const CameraDescription& d, Vec3d target) {
-  const Vec3d eye = checked(*d.eye_mm, "eye_mm");
+  const Vec3d eye = checked_place(*d.eye_mm, "eye_mm");
   const Vec3d to_target = target - eye;
   require(length(to_target) > 1e-9, "eye_mm", "the target itself", "another point");
   const Vec3d forward = normalize(to_target);
-  Vec3d up = d.up ? checked(*d.up, "up") : Vec3d(0, 0, 1);
+  Vec3d up = d.up ? checked_direction(*d.up, "up") : Vec3d(0, 0, 1);
   if (length(cross(forward, up)) <= 1e-6 * length(up)) {
-    require(!d.up, "up", "a zero vector or the viewing direction", "a vector across the viewing direction");
+    require(!d.up, "up", "the viewing direction", "a vector across the viewing direction");
     up = Vec3d(0, forward.z < 0 ? 1 : -1, 0);  // the limit of azimuth 0, elevation +-90
   }
   return {eye, target, up, forward};
@@ -88,16 +118,14 @@ CameraView compile_camera(const CameraDescription& d, Vec3f center_mm, float rad
   const double smaller = std::min(1.0, static_cast<double>(width) / height);  // smaller image side / height
   const double tan_half = std::tan(0.5 * d.vertical_fov_deg * kRadiansPerDegree);
   const Vec3d center(center_mm);
-  const Vec3d target = d.target_mm ? checked(*d.target_mm, "target_mm") : center;
+  const Vec3d target = d.target_mm ? checked_place(*d.target_mm, "target_mm") : center;
 
   const double fit_radius = d.fit_radius_mm.value_or(radius_mm);
-  const double fit_distance = fit_radius / (std::sin(std::atan(tan_half * smaller)) * d.zoom);
+  const bool fits = !d.eye_mm && !orthographic;
+  const double fit_distance = fits ? checked_fit_distance(d, fit_radius, radius_mm, tan_half * smaller) : 0.0;
   const double outside = 2.0 * radius_mm + length(target - center);
   const Pose pose =
       d.eye_mm ? place_at_eye(d, target) : orbit(d, target, orthographic ? outside : fit_distance);
-
-  require(d.eye_mm || max_component(max(pose.eye, -pose.eye)) <= kMaxLength_mm, "zoom",
-          fmt::to_string(d.zoom), "a zoom and field of view that keep the eye within 1e9 mm");
 
   const Vec3d right_level = normalize(cross(pose.forward, pose.up));
   const Vec3d up_level = cross(right_level, pose.forward);

@@ -124,8 +124,9 @@ LiveSession::Loop::Step LiveSession::Loop::wait() {
     if (draws && !at_rest() && !still_) return Step::kMove;
     const bool shown = still_ && shown_ != Shown::kNot;
     if (draws && !shown) return Step::kRefine;
-    if (!wishes.asides.empty() && (shown || !scene_ || failed_)) return Step::kAside;
-    if (draws && (!done_ || (shown_ == Shown::kQuickly && at_rest()))) return Step::kRefine;
+    if (wishes.watched && !wishes.asides.empty() && (shown || !scene_ || failed_)) return Step::kAside;
+    const bool refines = !done_ && !wishes.yielding;
+    if (draws && (refines || (shown_ == Shown::kQuickly && at_rest()))) return Step::kRefine;
     if (draws && shown_ == Shown::kQuickly)
       live_.wake_.wait_until(lock, edited_ + rest());
     else

@@ -49,6 +49,12 @@ void LiveSession::set_watched(bool watched) {
   wake_.notify_all();
 }
 
+void LiveSession::set_yielding(bool yielding) {
+  const std::lock_guard lock(mutex_);
+  wishes_.yielding = yielding;
+  wake_.notify_all();
+}
+
 void LiveSession::draw_aside(SceneDescription scene, int spp, std::function<void(Image8)> done) {
   const std::lock_guard lock(mutex_);
   wishes_.asides.push_back({std::move(scene), spp, std::move(done)});

@@ -87,8 +87,12 @@ class LiveSession {
   /// Nothing is rendered while nobody watches. Watched unless told otherwise.
   void set_watched(bool watched);
 
+  /// While something else needs the processors, a still picture stays as it was first shown, and is not refined.
+  /// Off unless told otherwise.
+  void set_yielding(bool yielding);
+
   /// Asks for a small picture of another scene of this volume, `spp` samples without denoiser, as large as its
-  /// image says: drawn when the view is still, one after the other, and handed to `done` by the session's
+  /// image says: drawn when the view is still and watched, one after the other, and handed to `done` by the session's
   /// thread; an empty one (0 x 0) where it failed or the session ended.
   void draw_aside(SceneDescription scene, int spp, std::function<void(Image8)> done);
 
@@ -105,7 +109,7 @@ class LiveSession {
     std::optional<SceneDescription> scene;
     std::uint64_t revision = 0;
     std::optional<double> split;
-    bool split_changed = false, watched = true, ending = false;
+    bool split_changed = false, watched = true, yielding = false, ending = false;
     std::vector<Aside> asides;
   };
 

@@ -8,6 +8,7 @@
 #include "camera/camera.h"
 #include "grid/grid_view.h"
 #include "image_io/image_io.h"
+#include "scene/check_picture.h"
 #include "scene/peers.h"
 #include "scene/recenter.h"
 #include "scene/resolve.h"
@@ -19,9 +20,6 @@ namespace voxlume {
 namespace {
 
 constexpr std::size_t kMaxLabel = 1u << 20;
-/// Optical depth of one voxel above which a transfer function is refused: a ray would take as many steps
-/// through it as its majorant says, and beyond this float distances no longer move on.
-constexpr double kMaxVoxelDepth = 1e5;
 
 Vec3f to_vec(const Color& color) { return {color.linear[0], color.linear[1], color.linear[2]}; }
 
@@ -61,7 +59,7 @@ LabelSet read_labels(const LabelsDescription& labels, const Double3& origin_mm) 
 /// Throws where matter of greatest extinction mu_t [1/mm] cannot be tracked through.
 void check_depth(float mu_t, const Volume& volume) {
   const double voxel_depth = double{mu_t} * make_grid_view(volume).step_mm;
-  if (voxel_depth > kMaxVoxelDepth)
+  if (voxel_depth > kMostVoxelDepth)
     throw Error(ErrorCode::kBadParameter, "/transfer",
                 "its densest matter has an optical depth of " + std::to_string(voxel_depth) +
                     " in one voxel; expected at most 100000");

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/memory.h"
@@ -45,6 +46,32 @@ ImportanceRule compiled(const ImportanceDescription& d, std::span<const RuleVolu
   return rule;
 }
 
+bool same_place(ImportanceDescription a, const ImportanceDescription& b) {
+  a.importance = b.importance;
+  return a == b;
+}
+
+/// Of entries for the same values and region the greatest importance counts, so one rule does for all.
+std::vector<ImportanceRule> compiled(const std::vector<ImportanceDescription>& important,
+                                     std::span<const RuleVolume> volumes) {
+  std::vector<ImportanceRule> rules;
+  std::vector<std::size_t> entry;  // of each rule
+  for (std::size_t i = 0; i < important.size(); ++i) {
+    const ImportanceRule rule =
+        compiled(important[i], volumes, "/visibility/important/" + std::to_string(i));
+    const auto same = std::find_if(entry.begin(), entry.end(),
+                                   [&](std::size_t j) { return same_place(important[i], important[j]); });
+    if (same == entry.end()) {
+      rules.push_back(rule);
+      entry.push_back(i);
+    } else {
+      float& importance = rules[static_cast<std::size_t>(same - entry.begin())].importance;
+      importance = std::max(importance, rule.importance);
+    }
+  }
+  return rules;
+}
+
 /// Throws unless there is memory for the lists of all pixels, as far as their number says.
 void check_list_memory(const ImageDescription& image) {
   const double bytes = double{sizeof(PixelListsView::Head)} * image.width * image.height;
@@ -66,10 +93,7 @@ std::optional<ImportanceField> CompiledScene::compile_importance(const SceneDesc
   check_list_memory(local.image);
   if (same) return {};
   const VisibilityDescription& d = *local.visibility;
-  std::vector<ImportanceRule> rules;
-  for (std::size_t i = 0; i < d.important.size(); ++i)
-    rules.push_back(compiled(d.important[i], volumes, "/visibility/important/" + std::to_string(i)));
-  return ImportanceField(std::move(rules), volumes, d.lookup);
+  return ImportanceField(compiled(d.important, volumes), volumes, d.lookup);
 }
 
 void CompiledScene::put_visibility(std::optional<ImportanceField> importance, const SceneDescription& local,

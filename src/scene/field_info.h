@@ -31,6 +31,10 @@ constexpr NumberRange at_least(double x) { return {.lower = x}; }
 constexpr NumberRange above(double x) { return {.lower = x, .open_lower = true}; }
 constexpr NumberRange between(double a, double b) { return {.lower = a, .upper = b}; }
 constexpr NumberRange above_to(double a, double b) { return {.lower = a, .upper = b, .open_lower = true}; }
+/// Where a clip box has no face, as ClipDescription starts [mm]; null in scene files.
+constexpr double kOpenFace_mm = 1e30;
+/// Of the ends of a clip box.
+constexpr NumberRange kAnyFace = between(-kOpenFace_mm, kOpenFace_mm);
 constexpr NumberRange inside(double a, double b) {
   return {.lower = a, .upper = b, .open_lower = true, .open_upper = true};
 }
@@ -57,6 +61,7 @@ struct FieldInfo {
   bool required = false;               ///< must be in the file, and is always written
   bool is_path = false;                ///< text naming a file: relative ones belong to the scene's folder
   bool is_direction = false;           ///< a vector whose length means nothing
+  bool open_ended = false;             ///< a pair of ends: one at its bound of the range is not there, null in files
 };
 
 /// Names the struct whose table is meant.

@@ -108,7 +108,10 @@ void FieldReader::read(const json& value, const FieldInfo& info, const std::stri
   const std::string address = child_address(where, "1");
   const json& of_field = value[1];
   const auto read_as = [&]<class T>(T shape) {
-    read(of_field, FieldInfo{.key = "", .doc = "", .max_count = 65536}, address, shape);
+    // A null stands for the open end of a clip box; fields that have none refuse it later.
+    read(of_field,
+         FieldInfo{.key = "", .doc = "", .range = kAnyFace, .max_count = 65536, .open_ended = true}, address,
+         shape);
     out.value = std::move(shape);
   };
   if (of_field.is_number()) return read_as(double{});

@@ -50,8 +50,7 @@ class FieldReader {
     if (value.size() > info.max_count)
       fail(value, where, "at most " + std::to_string(info.max_count) + " elements");
     out.assign(value.size(), {});
-    for (std::size_t i = 0; i < value.size(); ++i)
-      read(value[i], info, child_address(where, std::to_string(i)), out[i]);
+    for (std::size_t i = 0; i < value.size(); ++i) read_element(value[i], info, where, i, out[i]);
   }
 
   template <TupleField T>
@@ -59,8 +58,7 @@ class FieldReader {
     if (!value.is_array() || value.size() != out.size()) {
       fail(value, where, "a list of " + std::to_string(out.size()) + " numbers");
     }
-    for (std::size_t i = 0; i < out.size(); ++i)
-      read(value[i], info, child_address(where, std::to_string(i)), out[i]);
+    for (std::size_t i = 0; i < out.size(); ++i) read_element(value[i], info, where, i, out[i]);
   }
 
   template <EnumField T>
@@ -113,6 +111,18 @@ class FieldReader {
   static void read(const json& value, const FieldInfo&, const std::string& where, AnimationKey& out);
 
  private:
+  /// Element `i` of a list or tuple at `where`.
+  template <class T>
+  static void read_element(const json& value, const FieldInfo& info, const std::string& where, std::size_t i,
+                           T& out) {
+    if constexpr (std::is_same_v<T, double>) {
+      if (info.open_ended && value.is_null()) {
+        out = i == 0 ? info.range.lower : info.range.upper;
+        return;
+      }
+    }
+    read(value, info, child_address(where, std::to_string(i)), out);
+  }
   /// Throws Error: the first key of `object` that is not in `known`, with the nearest one that is.
   static void check_keys(const json& object, const std::string& where,
                          const std::vector<std::string_view>& known);

@@ -41,7 +41,7 @@ inline StructInfo struct_info(Struct<TurntableDescription>) {
 template <class V>
 void visit_fields(V&& visit, Struct<TurntableDescription>) {
   using T = TurntableDescription;
-  visit({.key = "seconds", .doc = "Time of all turns.", .unit = "s", .range = above_to(0, 1e6)}, &T::seconds);
+  visit({.key = "seconds", .doc = "Time of all turns.", .unit = "s", .range = between(1e-3, 1e6)}, &T::seconds);
   visit({.key = "turns",
          .doc = "How often around; negative goes toward the patient's right.",
          .range = between(-50, 50)},
@@ -56,7 +56,7 @@ inline StructInfo struct_info(Struct<AnimationDescription>) {
 template <class V>
 void visit_fields(V&& visit, Struct<AnimationDescription>) {
   using T = AnimationDescription;
-  visit({.key = "fps", .doc = "Frames a second.", .range = above_to(0, 1000)}, &T::fps);
+  visit({.key = "fps", .doc = "Frames a second.", .range = between(1e-3, 1000)}, &T::fps);
   visit({.key = "frames",
          .doc = "How many.",
          .range = between(1, 1e6),

@@ -108,16 +108,12 @@ inline StructInfo struct_info(Struct<ClipDescription>) {
 template <class V>
 void visit_fields(V&& visit, Struct<ClipDescription>) {
   using T = ClipDescription;
-  constexpr NumberRange kAnywhere = between(-1e30, 1e30);
-  visit({.key = "x_mm",
-         .doc = "Lower and upper end; +x is the patient's left.",
-         .unit = "mm",
-         .range = kAnywhere},
-        &T::x_mm);
-  visit({.key = "y_mm", .doc = "Lower and upper end; +y is posterior.", .unit = "mm", .range = kAnywhere},
-        &T::y_mm);
-  visit({.key = "z_mm", .doc = "Lower and upper end; +z is the head.", .unit = "mm", .range = kAnywhere},
-        &T::z_mm);
+  const auto side = [&](const char* key, const char* doc, std::array<double, 2> T::*member) {
+    visit({.key = key, .doc = doc, .unit = "mm", .range = kAnyFace, .open_ended = true}, member);
+  };
+  side("x_mm", "Lower and upper end, null where it is open; +x is the patient's left.", &T::x_mm);
+  side("y_mm", "Lower and upper end, null where it is open; +y is posterior.", &T::y_mm);
+  side("z_mm", "Lower and upper end, null where it is open; +z is the head.", &T::z_mm);
   visit({.key = "blocks_light", .doc = "What is cut away still casts its shadow."}, &T::blocks_light);
 }
 

@@ -5,6 +5,9 @@ namespace voxlume {
 
 // Field tables (scene/field_table.h) of what it is seen by: lights, environment, background, camera.
 
+/// Lengths whose squares, and their inverses, are finite in single precision [mm].
+constexpr NumberRange kLength = between(1e-6, 1e9);
+
 inline StructInfo struct_info(Struct<LightDescription>) {
   return {"Light", "A light other than the environment."};
 }
@@ -42,7 +45,7 @@ void visit_fields(V&& visit, Struct<LightDescription>) {
          .absent = "the camera's or the world's up",
          .is_direction = true},
         &T::up);
-  visit({.key = "size_mm", .doc = "rect: width and height.", .unit = "mm", .range = above(0)}, &T::size_mm);
+  visit({.key = "size_mm", .doc = "rect: width and height.", .unit = "mm", .range = kLength}, &T::size_mm);
   visit({.key = "two_sided", .doc = "rect: emits from its back as well."}, &T::two_sided);
 }
 
@@ -107,12 +110,12 @@ void visit_fields(V&& visit, Struct<CameraDescription>) {
         &T::roll_deg);
   visit({.key = "zoom",
          .doc = "1 fits the bounding sphere of the volume, or of the part that the clip box keeps.",
-         .range = above_to(0, 1e6)},
+         .range = between(1e-6, 1e6)},
         &T::zoom);
   visit({.key = "vertical_fov_deg",
          .doc = "perspective: vertical field of view.",
          .unit = "degrees",
-         .range = above_to(0, 170)},
+         .range = between(1e-3, 170)},
         &T::vertical_fov_deg);
   visit({.key = "target_mm",
          .doc = "The point looked at.",
@@ -129,18 +132,18 @@ void visit_fields(V&& visit, Struct<CameraDescription>) {
   visit({.key = "height_mm",
          .doc = "orthographic: height of the view.",
          .unit = "mm",
-         .range = above(0),
+         .range = kLength,
          .absent = "fits, divided by zoom"},
         &T::height_mm);
   visit({.key = "aperture_radius_mm",
          .doc = "Of a thin lens; 0 is a pinhole.",
          .unit = "mm",
-         .range = at_least(0)},
+         .range = between(0, 1e9)},
         &T::aperture_radius_mm);
   visit({.key = "focus_mm",
          .doc = "Distance of the sharp plane from the eye.",
          .unit = "mm",
-         .range = above(0),
+         .range = kLength,
          .absent = "the target's"},
         &T::focus_mm);
   visit({.key = "background_blur_deg",
@@ -151,7 +154,7 @@ void visit_fields(V&& visit, Struct<CameraDescription>) {
   visit({.key = "fit_radius_mm",
          .doc = "Radius of the sphere around the target that zoom 1 fits.",
          .unit = "mm",
-         .range = above_to(0, 1e9),
+         .range = kLength,
          .absent = "that of what is visible"},
         &T::fit_radius_mm);
 }

@@ -26,10 +26,19 @@ struct FieldWriter {
           if constexpr (OptionalField<std::remove_cvref_t<decltype(value.*member)>>) {
             if (value.*member) out[info.key] = json(*(value.*member));
           } else if (info.required || all_fields || !(value.*member == defaults.*member)) {
-            out[info.key] = json(value.*member);
+            out[info.key] = json(value.*member, info);
           }
         },
         Struct<T>{});
+    return out;
+  }
+  /// A field of that table entry.
+  template <class T>
+  OrderedJson json(const T& value, const FieldInfo& info) const {
+    OrderedJson out = json(value);
+    if (!info.open_ended) return out;
+    for (OrderedJson& end : out)
+      if (end <= info.range.lower || end >= info.range.upper) end = nullptr;
     return out;
   }
   template <class T>
@@ -48,7 +57,9 @@ struct FieldWriter {
   const { return value; }
   OrderedJson json(const Color& value) const { return color_json(value); }
   OrderedJson json(const FieldValue& value) const {
-    return std::visit([this](const auto& v) { return json(v); }, value);
+    const FieldInfo pair{.key = "", .doc = "", .range = kAnyFace, .open_ended = true};
+    const bool list = std::holds_alternative<std::vector<double>>(value);
+    return std::visit([&](const auto& v) { return list ? json(v, pair) : json(v); }, value);
   }
   OrderedJson json(const AnimationKey& key) const {
     return OrderedJson::array({json(key.time_s), json(key.value)});

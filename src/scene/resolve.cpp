@@ -1,9 +1,13 @@
 #include "scene/resolve.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "grid/grid_view.h"
+#include "scene/check_picture.h"
 #include "scene/peers.h"
 #include "scene/presets.h"
 #include "tonemap/srgb.h"
@@ -64,9 +68,13 @@ BoundingSphere visible_sphere(const Volume& volume, const std::optional<ClipDesc
   double radius = length(world.point(last) - center);
   if (clip) {
     Box3d kept{{clip->x_mm[0], clip->y_mm[0], clip->z_mm[0]}, {clip->x_mm[1], clip->y_mm[1], clip->z_mm[1]}};
-    kept = intersect(kept, world_bounds(volume));
-    if (kept.empty())
-      throw Error(ErrorCode::kBadParameter, "/clip", "the clip box keeps nothing of the volume");
+    const Box3d whole = world_bounds(volume);
+    kept = intersect(kept, whole);
+    for (int a = 0; a < 3; ++a)
+      if (kept.lower[a] > kept.upper[a])
+        throw Error(ErrorCode::kBadParameter, std::string("/clip/") + "xyz"[a] + "_mm",
+                    fmt::format("keeps nothing of the volume, which lies from {:.6g} to {:.6g}",
+                                whole.lower[a], whole.upper[a]));
     if (0.5 * length(kept.extent()) < radius) {
       center = kept.center();
       radius = 0.5 * length(kept.extent());
@@ -99,6 +107,7 @@ SceneDescription resolve(const SceneDescription& scene, const Volume& volume,
   ImageDescription& image = out.image;
   if (!image.spp && !image.seconds && !image.noise) image.spp = kDefaultSpp;
   apply_integrator(out);
+  check_picture(out, volume);
   return out;
 }
 

@@ -57,7 +57,7 @@ std::string type_text(const FieldInfo& info) {
   } else if constexpr (ListField<T>) {
     return "list of " + type_text<typename T::value_type>(info);
   } else if constexpr (TupleField<T>) {
-    return fmt::format("{} numbers", std::tuple_size_v<T>);
+    return fmt::format("{} numbers{}", std::tuple_size_v<T>, info.open_ended ? " or null" : "");
   } else if constexpr (EnumField<T>) {
     return fmt::format("`{}`", fmt::join(EnumWords<T>::kWords, "` `"));
   } else if constexpr (std::is_same_v<T, Color>) {
@@ -82,14 +82,27 @@ std::string cell(std::string_view text) {
   return out;
 }
 
+/// Printed JSON as a cell of a table can hold it.
+std::string on_one_line(std::string_view text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '\n') {
+      out += text[i];
+      continue;
+    }
+    while (i + 1 < text.size() && text[i + 1] == ' ') ++i;
+    if (out.ends_with(',')) out += ' ';
+  }
+  return out;
+}
+
 template <class M, StructField T>
 std::string default_text(const FieldInfo& info, M T::*member) {
   if (info.required) return "required";
   if constexpr (OptionalField<M>) return *info.absent ? std::string("absent: ") + info.absent : "absent";
   if constexpr (StructField<M>) return "";
   if constexpr (!OptionalField<M> && !StructField<M>) {
-    const OrderedJson value = FieldWriter{}.json(T{}.*member);
-    return "`" + print_json(value).substr(0, print_json(value).size() - 1) + "`";
+    return "`" + on_one_line(print_json(FieldWriter{}.json(T{}.*member, info))) + "`";
   }
 }
 

@@ -32,8 +32,10 @@ OrderedJson value_schema(const FieldInfo& info) {
             {"maxItems", info.max_count}};
   } else if constexpr (TupleField<T>) {
     const std::size_t count = std::tuple_size_v<T>;
+    OrderedJson items = value_schema<typename T::value_type>(info);
+    if (info.open_ended) items["type"] = {"number", "null"};
     return {{"type", "array"},
-            {"items", value_schema<typename T::value_type>(info)},
+            {"items", items},
             {"minItems", count},
             {"maxItems", count}};
   } else if constexpr (EnumField<T>) {
@@ -82,7 +84,7 @@ OrderedJson struct_schema(OrderedJson& definitions) {
         OrderedJson property = value_schema<M>(info);
         property["description"] = description(info);
         if constexpr (!OptionalField<M> && !StructField<M>) {
-          if (!info.required) property["default"] = FieldWriter{}.json(T{}.*member);
+          if (!info.required) property["default"] = FieldWriter{}.json(T{}.*member, info);
         }
         properties[info.key] = property;
         if (info.required) required.push_back(info.key);

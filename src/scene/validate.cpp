@@ -23,7 +23,8 @@ std::string expected_number(const char* noun, const FieldInfo& info, double foun
       found > all.upper && all.bounded_below() && !all.bounded_above()
           ? fmt::format("in {}{}, {}]", all.open_lower ? '(' : '[', all.lower, all.upper)
           : range_text(all);
-  if (range.empty()) return fmt::format("a finite {} of magnitude at most {}", noun, kLargestNumber);
+  if (range.empty())
+    return fmt::format("a finite {} of magnitude at most {}", noun, std::max(all.upper, kLargestNumber));
   return fmt::format("a {} {}", noun, range);
 }
 
@@ -46,6 +47,34 @@ void check_points(const TransferDescription& transfer, const std::string& where)
       refuse(address, "found both opacity and mu_t_per_mm in one transfer function, expected one of them");
     }
   }
+}
+
+/// Values in order, as floats, which they are looked up as. `value` takes an element.
+template <class List, class Value>
+void check_order(const List& list, Value&& value, bool may_repeat, const std::string& where,
+                 const char* key) {
+  for (std::size_t i = 1; i < list.size(); ++i) {
+    const double before = value(list[i - 1]), after = value(list[i]);
+    const auto a = static_cast<float>(before), b = static_cast<float>(after);
+    if (b < a || (b == a && !may_repeat))
+      refuse(child_address(child_address(where, std::to_string(i)), key),
+             fmt::format("found {} after {}, expected values sorted{}", after, before,
+                         may_repeat ? "" : " and no two alike"));
+  }
+}
+
+void check_rule(const RuleDescription& rule, const std::string& where) {
+  const bool curve = rule.kind == RuleKind::kCoefficientCurve;
+  const auto check = [&](const std::vector<TransferPoint>& points, const std::string& of) {
+    check_order(
+        points, [](const TransferPoint& p) { return p.value; }, curve, child_address(of, "points"), "value");
+  };
+  check(rule.points, where);
+  const std::string columns = child_address(where, "columns");
+  check_order(
+      rule.columns, [](const RuleColumn& c) { return c.at; }, false, columns, "at");
+  for (std::size_t i = 0; i < rule.columns.size(); ++i)
+    check(rule.columns[i].points, child_address(columns, std::to_string(i)));
 }
 
 void check_direction(const std::optional<Double3>& v, const std::string& where) {
@@ -179,6 +208,8 @@ void validate_scene(const SceneDescription& scene, const std::string& where) {
   check_field(scene, FieldInfo{.key = "", .doc = ""}, where);
   const auto at = [&](const char* key) { return child_address(where, key); };
   check_points(scene.transfer, at("transfer"));
+  for (std::size_t i = 0; i < scene.transfer.rules.size(); ++i)
+    check_rule(scene.transfer.rules[i], child_address(at("transfer/rules"), std::to_string(i)));
   if (scene.labels && scene.labels->path.empty()) refuse(at("labels/path"), "found \"\", expected a file");
   if (scene.lights) {
     for (std::size_t i = 0; i < scene.lights->size(); ++i) {

@@ -4,6 +4,7 @@
 
 #include "base/fail.h"
 #include "volume_io/file_format.h"
+#include "volume_io/hdf5_links.h"
 #include "volume_io/itk_header.h"
 
 namespace voxlume {
@@ -14,6 +15,7 @@ class Hdf5Reader : public VolumeReader {
   explicit Hdf5Reader(const std::filesystem::path& path) : path_(path), io_(itk::HDF5ImageIO::New()) {}
 
   VolumeHeader read_header() override {
+    check_hdf5_is_one_file(path_);
     VolumeHeader header = read_itk_header(*io_, path_);
     header.volume.format = format_name(FileFormat::kHdf5);
     stored_bytes_ = header.stored_bytes();

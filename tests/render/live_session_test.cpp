@@ -299,6 +299,33 @@ TEST(LiveSession, DrawsOtherScenesAside) {
   EXPECT_EQ(heard.wait_done(revision)->linear->rgba, rendered(live, scene).rgba);
 }
 
+TEST(LiveSession, YieldsItsStillPictureToOthers) {
+  Heard heard;
+  SceneDescription scene = small_scene();
+  scene.image.spp = 1 << 20;
+  LiveSession live(scene, ball(), heard.listener(), quick());
+  live.set_yielding(true);
+  const std::uint64_t first = live.show(live.session().description());
+  const auto still_of = [&](std::uint64_t revision) {
+    return heard.wait_for([=](const LiveFrame& f) { return f.revision == revision && !f.moving; });
+  };
+  const FramePtr shown = still_of(first);
+  EXPECT_FALSE(shown->done);
+  // Small pictures are drawn, edits are shown as ever, and after the first still one nothing more comes.
+  SceneDescription aside = scene;
+  aside.image.width = aside.image.height = 16;
+  std::promise<Image8> drawn;
+  live.draw_aside(live.resolved(aside), 8, [&](Image8 picture) { drawn.set_value(std::move(picture)); });
+  EXPECT_EQ(drawn.get_future().get().width, 16);
+  scene.camera.azimuth_deg = 40;
+  const std::uint64_t second = live.show(live.resolved(scene));
+  const double spp = still_of(second)->spp;
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  EXPECT_EQ(heard.frames().back()->spp, spp);
+  live.set_yielding(false);
+  heard.wait_for([=](const LiveFrame& f) { return f.revision == second && f.spp > spp; });
+}
+
 TEST(LiveSession, EndsWhileItRenders) {
   Heard heard;
   std::promise<Image8> aside;

@@ -194,7 +194,7 @@ TEST(ValidateScene, ChecksDescriptionsMadeByPrograms) {
     validate_scene(s);
     FAIL();
   } catch (const Error& e) {
-    EXPECT_STREQ(e.what(), "/camera/zoom: found nan, expected a number in (0, 1000000]");
+    EXPECT_STREQ(e.what(), "/camera/zoom: found nan, expected a number in [1e-06, 1000000]");
     EXPECT_EQ(e.code(), ErrorCode::kBadParameter);
   }
 }

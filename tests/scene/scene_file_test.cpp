@@ -1,3 +1,4 @@
+#include "scene/field_info.h"
 #include "scene/scene_file.h"
 
 #include <gmock/gmock.h>
@@ -79,6 +80,28 @@ TEST(SceneFile, ColorsAreReadInTheirColorSpace) {
   EXPECT_EQ(color("\"#FF8000\""), (std::array<float, 3>{1, linear_from_srgb(128.0f / 255.0f), 0}));
   EXPECT_EQ(color("[0.5, 0, 1]"), (std::array<float, 3>{linear_from_srgb(0.5f), 0, 1}));
   EXPECT_EQ(color(R"({"linear": [0.25, 3, 0]})"), (std::array<float, 3>{0.25f, 3, 0}));
+}
+
+TEST(SceneFile, AnOpenFaceOfTheClipBoxIsNull) {
+  SceneDescription s;
+  s.clip.emplace();
+  s.clip->z_mm[1] = 80;
+  EXPECT_THAT(write_scene(s), HasSubstr(R"("clip": {"z_mm": [null, 80]})"));
+  EXPECT_THAT(write_scene(s, true), HasSubstr(R"("x_mm": [null, null])"));
+  const SceneDescription read =
+      parse_scene(scene(R"("clip": {"x_mm": [-5, null], "y_mm": [-1e30, 1e30], "z_mm": [null, 80]})"), "s");
+  EXPECT_EQ(read.clip->x_mm, (std::array<double, 2>{-5, kOpenFace_mm}));
+  EXPECT_EQ(read.clip->y_mm, ClipDescription{}.y_mm);  // as files were written before there was null
+  EXPECT_EQ(read.clip->z_mm, s.clip->z_mm);
+  // The same in keys of a track.
+  s.animation.emplace();
+  s.animation->tracks = {
+      {"/clip/z_mm", Interpolation::kLinear, {{0, std::vector<double>{-kOpenFace_mm, 80}}, {1, std::vector<double>{0, 90}}}}};
+  EXPECT_THAT(write_scene(s), HasSubstr("[0, [null, 80]]"));
+  EXPECT_EQ(parse_scene(write_scene(s), "s"), s);
+  EXPECT_THAT(error_of(scene(R"("camera": {"target_mm": [null, 0, 0]})")), HasSubstr("/camera/target_mm/0: found null"));
+  EXPECT_THAT(error_of(scene(R"("animation": {"tracks": [{"field": "/camera/target_mm", "keys": [[0, [null, 0, 0]]]}]})")),
+              HasSubstr("/animation/tracks/0/keys/0/1/0"));
 }
 
 TEST(SceneFile, TheSchemaKeyIsAllowedAtTheRoot) {

@@ -125,7 +125,12 @@ TEST_F(DocumentTest, WhatIsWrongIsRefusedWholeWithItsAddress) {
   EXPECT_THAT(refusal(document, {{"/camera/nothing", 1}}), HasSubstr("nothing"));
   EXPECT_THAT(refusal(document, {{"/version", nullptr}}), HasSubstr("version"));
   EXPECT_THAT(refusal(document, {{"/version", 99}}), HasSubstr("version"));
-  EXPECT_THAT(refusal(document, {{"/clip", {{"x_mm", {500, 600}}}}}), HasSubstr("/clip"));
+  EXPECT_THAT(refusal(document, {{"/clip", {{"x_mm", {500, 600}}}}}), HasSubstr("/clip/x_mm: "));
+  // What no picture can be made of.
+  EXPECT_THAT(refusal(document, {{"/camera/zoom", 1e-9}}), HasSubstr("/camera/zoom: "));
+  EXPECT_THAT(refusal(document, {{"/camera/target_mm", {1e9, 0, 0}}}), HasSubstr("/camera/target_mm: "));
+  EXPECT_THAT(refusal(document, {{"/camera/fit_radius_mm", 1e9}}), HasSubstr("/camera/fit_radius_mm: "));
+  EXPECT_THAT(refusal(document, {{"/transfer/density_scale", 1e6}}), HasSubstr("/transfer/density_scale: "));
 }
 
 TEST_F(DocumentTest, AddressesThatLeadNowhereAreRefused) {
@@ -212,6 +217,60 @@ TEST_F(DocumentTest, EditsOutOfGesturesAndAfterUndoAreStepsOfTheirOwn) {
   document.edit({{"/camera/azimuth_deg", 5}}, "g");
   document.undo();
   EXPECT_EQ(document.scene().camera.azimuth_deg, 1);
+}
+
+TEST_F(DocumentTest, InterleavedGesturesOfDifferentMembersAreAStepEach) {
+  Document document = make();
+  const json first = document.json();
+  for (int i = 1; i <= 10; ++i) {
+    document.edit({{"/camera/azimuth_deg", i}}, "1 orbit");
+    document.edit({{"/image/exposure_ev", 0.1 * i}}, "2 exposure");
+  }
+  const json after = document.json();
+  document.undo();  // the one that began last
+  EXPECT_EQ(document.scene().image.exposure_ev, 0);
+  EXPECT_EQ(document.scene().camera.azimuth_deg, 10);
+  document.undo();
+  EXPECT_EQ(document.json(), first);
+  EXPECT_FALSE(document.can_undo());
+  document.redo();
+  document.redo();
+  EXPECT_EQ(document.json(), after);
+}
+
+TEST_F(DocumentTest, AGestureTakesUpFurtherMembersUnlessTheyWereChangedInBetween) {
+  Document document = make();
+  const json first = document.json();
+  document.edit({{"/camera/azimuth_deg", 1}}, "1 g");
+  document.edit({{"/image/exposure_ev", 1}}, "2 g");
+  document.edit({{"/camera/azimuth_deg", 2}, {"/clip", {{"x_mm", {-1, 1}}}}}, "1 g");  // joins
+  document.edit({{"/image/exposure_ev", 2}}, "1 g");                                  // does not
+  document.undo();
+  EXPECT_EQ(document.scene().image.exposure_ev, 1);
+  EXPECT_TRUE(document.scene().clip);
+  document.undo();
+  EXPECT_EQ(document.scene().image.exposure_ev, 0);
+  EXPECT_EQ(document.scene().camera.azimuth_deg, 2);
+  EXPECT_TRUE(document.scene().clip);
+  document.undo();
+  EXPECT_EQ(document.json(), first);
+  EXPECT_FALSE(document.can_undo());
+}
+
+TEST_F(DocumentTest, InterleavedGesturesOfOneMemberAreStepsOfTheirOwn) {
+  Document document = make();
+  std::vector<json> states{document.json()};
+  for (int i = 1; i <= 3; ++i) {
+    document.edit({{"/camera/azimuth_deg", i}}, "1 g");
+    states.push_back(document.json());
+    document.edit({{"/camera/zoom", 1 + i}}, "2 g");
+    states.push_back(document.json());
+  }
+  for (std::size_t i = states.size() - 1; i-- > 0;) {
+    ASSERT_TRUE(document.undo());
+    EXPECT_EQ(document.json(), states[i]);
+  }
+  EXPECT_FALSE(document.can_undo());
 }
 
 TEST_F(DocumentTest, ThePicturesSizeIsLeftOutOfUndo) {

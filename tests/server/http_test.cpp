@@ -106,7 +106,7 @@ TEST_F(Http, WithoutAPageSaysHowToBuildOne) {
 TEST_F(Http, WhileNothingIsOpenThereIsNothingToTell) {
   const Address& at = start();
   for (const char* path :
-       {"/api/volume", "/api/labels", "/api/slice?axis=z&mm=0", "/api/histogram?of=x", "/api/picture.png",
+       {"/api/volume", "/api/labels", "/api/slice?axis=z&mm=0", "/api/histogram?of=x", "/api/histogram2?x=data&y=x", "/api/picture.png",
         "/api/scene.json", "/api/preset/ct-bone.png", "/api/export/a.mp4", "/api/nothing", "/api/"})
     EXPECT_EQ(get(at, path).status, 404) << path;
 }
@@ -332,6 +332,39 @@ TEST_F(HttpOfVolume, ProxiesHaveHistograms) {
   EXPECT_EQ(get(*address_, "/api/histogram?of=nothing").status, 404);
 }
 
+TEST_F(HttpOfVolume, TwoVolumesHaveAJointHistogram) {
+  Page page(*address_);
+  const json proxies = {{{"name", "sides"}, {"path", "labels.nrrd"}, {"lookup", "nearest"}},
+                        {{"name", "g"}, {"kind", "gradient"}}};
+  page.send(edit(1, "/proxies", proxies));
+  page.next("edited");
+  const json histogram = data("/api/histogram2?x=data&y=sides");
+  const std::size_t columns = histogram["columns"], rows = histogram["rows"];
+  EXPECT_EQ(histogram["x"], json({{"lo", 0}, {"hi", ramp(15, 15, 15)}}));
+  EXPECT_EQ(histogram["y"], json({{"lo", 0.5}, {"hi", 2.5}}));
+  ASSERT_EQ(rows, 2u);
+  ASSERT_EQ(histogram["counts"].size(), columns * rows);
+  // Half of the voxels are of each label.
+  for (std::size_t row = 0; row < rows; ++row) {
+    std::uint64_t sum = 0;
+    for (std::size_t i = 0; i < columns; ++i) sum += histogram["counts"][row * columns + i].get<std::uint64_t>();
+    EXPECT_EQ(sum, 2048u) << row;
+  }
+  // The least of the ramp's 128 bins has 0 to 49: two rows of 16 voxels, and the first ten of the third.
+  EXPECT_EQ(histogram["counts"][0], 24);
+  EXPECT_EQ(histogram["counts"][columns], 18);
+  EXPECT_EQ(get(*address_, "/api/histogram2?x=data&y=sides").body,
+            get(*address_, "/api/histogram2?x=data&y=sides").body);
+  // The other way round it is the same, turned.
+  const json turned = data("/api/histogram2?x=sides&y=data");
+  for (std::size_t row = 0; row < rows; ++row)
+    for (std::size_t i = 0; i < columns; ++i)
+      ASSERT_EQ(turned["counts"][i * rows + row], histogram["counts"][row * columns + i]);
+  EXPECT_EQ(data("/api/histogram2?x=g&y=g")["columns"], 128);
+  for (const char* wrong : {"", "?x=data", "?x=data&y=nothing", "?x=labels&y=data", "?x=data&y=opacity"})
+    EXPECT_EQ(get(*address_, std::string("/api/histogram2") + wrong).status, 404) << wrong;
+}
+
 TEST_F(HttpOfVolume, PictureIsOfFullSizeWithItsScene) {
   Page page(*address_);
   const Answer png = get(*address_, "/api/picture.png");
@@ -356,18 +389,43 @@ TEST_F(HttpOfVolume, SceneIsAFileThatCanBeLoaded) {
   EXPECT_EQ(scene["image"]["width"], 32);
 }
 
-TEST_F(HttpOfVolume, ThumbnailsComeWhenTheyAreDrawn) {
+TEST_F(HttpOfVolume, ThumbnailsAreThereWhenTheyAreSaidToBe) {
   Page page(*address_);
   EXPECT_EQ(get(*address_, "/api/preset/nothing.png").status, 404);
-  Answer answer = get(*address_, "/api/preset/ct-bone.png");
-  EXPECT_EQ(answer.status, 503);
-  for (int i = 0; i < 500 && answer.status == 503; ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    answer = get(*address_, "/api/preset/ct-bone.png");
+  EXPECT_EQ(get(*address_, "/api/preset/ct-bone.png").status, 404);  // nobody asked for it
+  const json hello = page.next("hello");
+  page.next("scene");
+  page.send({{"type", "draw_presets"}});
+  std::vector<std::string> drawn;
+  for (std::size_t i = 0; i < hello["presets"].size(); ++i) {
+    drawn.push_back(page.next("preset_drawn")["name"]);
+    const Answer answer = get(*address_, "/api/preset/" + drawn.back() + ".png");
+    ASSERT_EQ(answer.status, 200) << drawn.back();
+    EXPECT_EQ(answer.header("Content-Type"), "image/png");
+    EXPECT_EQ(answer.body.substr(16, 8), std::string("\0\0\0\x80\0\0\0\x80", 8));
   }
-  ASSERT_EQ(answer.status, 200);
-  EXPECT_EQ(answer.header("Content-Type"), "image/png");
-  EXPECT_EQ(answer.body.substr(16, 8), std::string("\0\0\0\x80\0\0\0\x80", 8));
+  std::vector<std::string> presets;
+  for (const json& preset : hello["presets"]) presets.push_back(preset["name"]);
+  EXPECT_THAT(drawn, testing::UnorderedElementsAreArray(presets));
+  // Another page is told at once, and they are the same pictures.
+  const std::string before = get(*address_, "/api/preset/ct-bone.png").body;
+  Page later(*address_);
+  later.next("scene");
+  later.send({{"type", "draw_presets"}});
+  for (std::size_t i = 0; i < presets.size(); ++i) later.next("preset_drawn");
+  EXPECT_EQ(get(*address_, "/api/preset/ct-bone.png").body, before);
+}
+
+TEST_F(HttpOfVolume, ThumbnailsOfAnEarlierVolumeAreGone) {
+  Page page(*address_);
+  page.next("scene");
+  page.send({{"type", "draw_presets"}});
+  const std::string name = page.next("preset_drawn")["name"];
+  page.send({{"type", "open"}, {"path", "ramp.nrrd"}});
+  page.next("scene");
+  EXPECT_EQ(get(*address_, "/api/preset/" + name + ".png").status, 404);
+  page.send({{"type", "draw_presets"}});
+  page.next("preset_drawn");
 }
 
 }  // namespace

@@ -34,6 +34,7 @@ TEST(Messages, AreRead) {
   EXPECT_EQ(read<LoadMessage>(R"({"type":"load","scene":{"version":1}})").scene["version"], 1);
   EXPECT_NO_THROW(read<UndoMessage>(R"({"type":"undo"})"));
   EXPECT_NO_THROW(read<RedoMessage>(R"({"type":"redo"})"));
+  EXPECT_NO_THROW(read<DrawPresetsMessage>(R"({"type":"draw_presets"})"));
   EXPECT_NO_THROW(read<CancelExportMessage>(R"({"type":"cancel_export"})"));
 }
 

@@ -111,6 +111,27 @@ TEST_F(RootsTest, VoxelsThatAHeaderNamesAreInsideToo) {
   }
 }
 
+TEST_F(RootsTest, SlicesOfAFolderAreInsideToo) {
+  Roots roots(root_);
+  fs::create_directories(root_ / "series/below");
+  write_bytes(root_ / "series/1.dcm", "1");
+  fs::create_symlink("../a.nrrd", root_ / "series/2.dcm");
+  fs::create_symlink("nothing", root_ / "series/3.dcm");
+  fs::create_symlink(folder_.path(), root_ / "series/folder");
+  EXPECT_EQ(roots.resolve_to_open("series"), root_ / "series");
+  fs::create_symlink(folder_.path() / "secret", root_ / "series/4.dcm");
+  try {
+    roots.resolve_to_open("series");
+    FAIL() << "a slice outside";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.message(), testing::AllOf(testing::HasSubstr("4.dcm"), testing::HasSubstr("outside")));
+  }
+  EXPECT_EQ(roots.resolve("series"), root_ / "series");  // it can be listed
+  // What the user named himself is as it is.
+  roots.add(root_ / "series");
+  EXPECT_EQ(roots.resolve_to_open("series"), root_ / "series");
+}
+
 TEST_F(RootsTest, PathsOfAScene) {
   const Roots roots(root_);
   SceneDescription scene;

@@ -68,6 +68,14 @@ test("a rule of two values: its columns are added, moved and removed", async (t)
   const columns = viewer.page.getByRole("button", { name: /^Column at/ });
   const count = two.transfer.rules[0].columns.length;
   assert.equal(await columns.count(), count);
+  // Behind them is how often the two values occur together: somewhere, but not everywhere.
+  const counts = viewer.page.getByRole("img", { name: "Joint histogram of the two volumes" });
+  await counts.waitFor();
+  const filled = await counts.evaluate((canvas) => {
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    return data.filter((value, i) => i % 4 === 3 && value > 0).length / (canvas.width * canvas.height);
+  });
+  assert.ok(filled > 0.05 && filled < 0.95, `${filled} of the plane`);
   const plane = await viewer.page.getByRole("group", { name: /^Columns of the rule/ }).boundingBox();
   await viewer.page.mouse.dblclick(plane.x + plane.width / 2, plane.y + plane.height * 0.4);
   const added = await viewer.sceneWith((s) => s.transfer.rules[0].columns.length === count + 1, "a further column");
@@ -202,6 +210,12 @@ test("what is important is seen through what hides it", { skip: missing("head-ct
   await viewer.done();
   const bone = await viewer.shown("bone.png");
   assert.ok(psnr(skin, bone) < 30, "nothing gives way");
+  await viewer.button("Values").click();
+  await viewer.sceneWith((s) => s.visibility?.important?.length === 2, "the same once more");
+  await viewer.page.getByText("The same as number 1 above").waitFor();
+  await viewer.page.getByRole("button", { name: "Remove", exact: true }).last().click();
+  await viewer.sceneWith((s) => s.visibility?.important?.length === 1, "it alone");
+  assert.equal(await viewer.page.getByText("The same as number 1 above").count(), 0);
   await viewer.button("Region").click();
   await viewer.sceneWith((s) => s.visibility?.important?.[1]?.radius_mm > 0, "an important region");
   await viewer.page.getByRole("button", { name: "Remove", exact: true }).last().click();

@@ -1,4 +1,4 @@
-import type { Histogram } from "../state/volume";
+import type { Histogram, JointHistogram } from "../state/volume";
 import type { Span } from "./axis";
 
 /** The value at the middle of a bin. */
@@ -15,15 +15,42 @@ export function logHeights(histogram: Histogram, span: Span, columns: number): n
   const most = Math.log1p(counts.reduce((a, b) => Math.max(a, b), 0));
   const out = new Array<number>(columns).fill(0);
   if (!(most > 0) || !(hi > lo)) return out;
-  const binOf = (value: number) => ((value - lo) / (hi - lo)) * counts.length;
-  for (let i = 0; i < columns; ++i) {
-    const from = binOf(span.lo + (i / columns) * (span.hi - span.lo));
-    const to = binOf(span.lo + ((i + 1) / columns) * (span.hi - span.lo));
-    const first = Math.max(0, Math.floor(from));
-    const last = Math.min(counts.length - 1, Math.max(Math.floor(from), Math.ceil(to) - 1));
+  binsMet(histogram, counts.length, span, columns).forEach(([first, last], i) => {
     let count = 0;
     for (let b = first; b <= last; ++b) count = Math.max(count, counts[b]!);
     out[i] = Math.log1p(count) / most;
+  });
+  return out;
+}
+
+/** Heights as logHeights() has them, of a `columns` x `rows` map of the plane: x to the right, y upward, the top row first. */
+export function jointHeights(histogram: JointHistogram, x: Span, y: Span, columns: number, rows: number): number[] {
+  const { counts } = histogram;
+  const most = Math.log1p(counts.reduce((a, b) => Math.max(a, b), 0));
+  const out = new Array<number>(columns * rows).fill(0);
+  if (!(most > 0)) return out;
+  const across = binsMet(histogram.x, histogram.columns, x, columns);
+  const up = binsMet(histogram.y, histogram.rows, y, rows);
+  for (let row = 0; row < rows; ++row) {
+    const [low, high] = up[rows - 1 - row]!;
+    for (let column = 0; column < columns; ++column) {
+      const [first, last] = across[column]!;
+      let count = 0;
+      for (let b = low; b <= high; ++b)
+        for (let a = first; a <= last; ++a) count = Math.max(count, counts[b * histogram.columns + a]!);
+      out[row * columns + column] = Math.log1p(count) / most;
+    }
   }
   return out;
+}
+
+/** The first and last of `bins` bins over `whole` that each of `cells` equal parts of `span` meets; none: last < first. */
+function binsMet(whole: Span, bins: number, span: Span, cells: number): [number, number][] {
+  const binOf = (value: number) => ((value - whole.lo) / (whole.hi - whole.lo)) * bins;
+  return Array.from({ length: cells }, (_, i) => {
+    const from = binOf(span.lo + (i / cells) * (span.hi - span.lo));
+    const to = binOf(span.lo + ((i + 1) / cells) * (span.hi - span.lo));
+    const last = Math.max(Math.floor(from), Math.ceil(to) - 1);
+    return [Math.max(0, Math.floor(from)), Math.min(bins - 1, last)];
+  });
 }

@@ -39,9 +39,8 @@ export function ClipPanel() {
     edit([["/clip", on ? (remembered ?? whole(false)) : null]], newGesture("clip"));
   };
   const set = (key: (typeof axes)[number]["key"], end: 0 | 1, value: number, gesture: string) => {
-    const range = clip?.[key] ?? whole(false)[key];
-    const other = range[1 - end]!;
-    const kept = end === 0 ? Math.min(value, other - 0.01) : Math.max(value, other + 0.01);
+    const other = (clip ?? whole(false))[key][1 - end]!;
+    const kept = other === null ? value : end === 0 ? Math.min(value, other - 0.01) : Math.max(value, other + 0.01);
     edit([[`/clip/${key}`, end === 0 ? [kept, other] : [other, kept]]], gesture);
   };
   return (
@@ -50,7 +49,6 @@ export function ClipPanel() {
       {axes.map(({ key, lower, upper }, axis) => {
         const lo = bounds[0][axis]!;
         const hi = bounds[1][axis]!;
-        const range = clip?.[key] ?? [lo, hi];
         return ([0, 1] as const).map((end) => (
           <Slider
             key={`${key}${end}`}
@@ -59,11 +57,11 @@ export function ClipPanel() {
             axis={axis as Axis}
             min={lo}
             max={hi}
-            hardMin={-1e30}
-            hardMax={1e30}
+            hardMin={-1e12}
+            hardMax={1e12}
             initial={end === 0 ? lo : hi}
             disabled={!clip}
-            value={Math.min(Math.max(range[end]!, lo), hi)}
+            value={Math.min(Math.max(clip?.[key][end] ?? [lo, hi][end]!, lo), hi)}
             onChange={(value, gesture) => set(key, end, value, gesture)}
           />
         ));

@@ -16,6 +16,7 @@ export type PageMessage =
   | ({ type: "probe"; id: number } & ProbedPlace)
   | { type: "export"; file: string }
   | { type: "cancel_export" }
+  | { type: "draw_presets" }
   | { type: "shown"; frame: number };
 
 /** A place of the picture, 0 to 1 from the top left, or of the volume. */
@@ -110,6 +111,12 @@ export interface Split {
   at: number | null;
 }
 
+/** /api/preset/NAME.png is there. */
+export interface PresetDrawn {
+  type: "preset_drawn";
+  name: string;
+}
+
 export interface Viewers {
   type: "viewers";
   count: number;
@@ -126,6 +133,7 @@ export type ServerMessage =
   | Probe
   | ExportState
   | Split
+  | PresetDrawn
   | Viewers;
 
 /** The camera of a picture. half_width and half_height are tangents (perspective) or mm (orthographic). */

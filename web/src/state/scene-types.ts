@@ -173,10 +173,13 @@ export interface Camera {
   fit_radius_mm?: number;
 }
 
+/** Lower and upper face of a box; null where it is open. */
+export type Faces = readonly [number | null, number | null];
+
 export interface Clip {
-  x_mm: Range;
-  y_mm: Range;
-  z_mm: Range;
+  x_mm: Faces;
+  y_mm: Faces;
+  z_mm: Faces;
   blocks_light: boolean;
 }
 

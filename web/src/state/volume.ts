@@ -10,6 +10,15 @@ export interface Histogram {
   counts: number[];
 }
 
+/** How often values of two volumes are at the same place: `rows` times `columns` counts, those of the lowest y first. */
+export interface JointHistogram {
+  x: { lo: number; hi: number };
+  y: { lo: number; hi: number };
+  columns: number;
+  rows: number;
+  counts: number[];
+}
+
 export interface VolumeFacts {
   name: string;
   size: Vec3;
@@ -64,6 +73,11 @@ export async function refreshVolume(): Promise<void> {
 /** The histogram of a proxy (gradients and files). */
 export function fetchHistogram(of: string): Promise<Histogram> {
   return getJson<Histogram>(`api/histogram?of=${encodeURIComponent(of)}`);
+}
+
+/** Of two volumes by their names in rules; not of "opacity". */
+export function fetchJointHistogram(x: string, y: string): Promise<JointHistogram> {
+  return getJson<JointHistogram>(`api/histogram2?x=${encodeURIComponent(x)}&y=${encodeURIComponent(y)}`);
 }
 
 on("scene", () => void refreshVolume());

@@ -12,7 +12,7 @@ import {
 } from "../geometry/orbit";
 import { distance, mix, type Vec3 } from "../geometry/vec3";
 import type { Assignment } from "../state/protocol";
-import type { Camera, Range, Scene } from "../state/scene-types";
+import type { Camera, Faces, Range, Scene } from "../state/scene-types";
 import { edit, newGesture, scene } from "../state/scene";
 import { volume } from "../state/volume";
 import { letterbox, viewSize } from "./overlay";
@@ -23,8 +23,11 @@ import { letterbox, viewSize } from "./overlay";
 export function visibleBox_mm(of: Scene): readonly [Vec3, Vec3] {
   const [low, high] = volume.value?.bounds_mm ?? [[-100, -100, -100] as const, [100, 100, 100] as const];
   if (!of.clip) return [low, high];
-  const sides: Range[] = [of.clip.x_mm, of.clip.y_mm, of.clip.z_mm];
-  const cut = (axis: number): Range => [Math.max(low[axis]!, sides[axis]![0]), Math.min(high[axis]!, sides[axis]![1])];
+  const sides: Faces[] = [of.clip.x_mm, of.clip.y_mm, of.clip.z_mm];
+  const cut = (axis: number): Range => {
+    const [from, to] = sides[axis]!;
+    return [Math.max(low[axis]!, from ?? -Infinity), Math.min(high[axis]!, to ?? Infinity)];
+  };
   const [x, y, z] = [cut(0), cut(1), cut(2)];
   return [
     [x[0], y[0], z[0]],

@@ -1,7 +1,7 @@
 import { formatCoordinate, type Axis } from "../geometry/orientation";
 import { nearestOnLine } from "../geometry/projection";
 import { add, scale, type Vec3 } from "../geometry/vec3";
-import type { Clip, Range } from "../state/scene-types";
+import type { Clip, Faces } from "../state/scene-types";
 import { edit, newGesture, scene, section } from "../state/scene";
 import { volume } from "../state/volume";
 import { clipHandles } from "../state/tools";
@@ -12,35 +12,30 @@ import { view, type ViewProjection } from "./overlay";
 /** The clip box over the picture, with a handle on each face that moves along the face's axis. */
 
 const clip = section("clip");
-const kOpen = 1e30;
 /** The box keeps at least this share of the volume's side. */
 const kThinnest = 0.01;
 const fields = ["x_mm", "y_mm", "z_mm"] as const;
+const open: Faces = [null, null];
 const sideNames = [
   ["right", "left"],
   ["front", "back"],
   ["feet", "head"],
 ] as const;
 
-/** Moves a face; beyond the volume it is open again. */
-function setSide(axis: number, side: 0 | 1, mm: number, gesture: string): void {
+/** Moves a face; beyond the volume, or without a place, it is open again. */
+function setSide(axis: number, side: 0 | 1, mm: number | null, gesture: string): void {
   const bounds = volume.peek()?.bounds_mm;
   if (!bounds) return;
   const low = bounds[0][axis]!;
   const high = bounds[1][axis]!;
-  const before: Clip = clip.peek() ?? {
-    x_mm: [-kOpen, kOpen],
-    y_mm: [-kOpen, kOpen],
-    z_mm: [-kOpen, kOpen],
-    blocks_light: false,
-  };
+  const before: Clip = clip.peek() ?? { x_mm: open, y_mm: open, z_mm: open, blocks_light: false };
   const field = fields[axis]!;
   const [from, to] = before[field];
   const thin = kThinnest * (high - low);
-  const range: Range =
+  const range: Faces =
     side === 0
-      ? [mm <= low ? -kOpen : Math.min(mm, Math.min(to, high) - thin), to]
-      : [from, mm >= high ? kOpen : Math.max(mm, Math.max(from, low) + thin)];
+      ? [mm === null || mm <= low ? null : Math.min(mm, Math.min(to ?? high, high) - thin), to]
+      : [from, mm === null || mm >= high ? null : Math.max(mm, Math.max(from ?? low, low) + thin)];
   if (clip.peek()) edit([[`/clip/${field}`, range]], gesture);
   else edit([["/clip", { ...before, [field]: range }]], gesture);
 }
@@ -71,7 +66,7 @@ function Face({ shown, box, axis, side }: FaceProps) {
       [0, 1],
     ] as const
   ).map(([a, b]) => shown.project(withAxis(withAxis(middle, u, box[a][u]!), v, box[b][v]!)));
-  const cut = Math.abs(clip.value?.[fields[axis]!][side] ?? kOpen) < 1e29;
+  const cut = (clip.value?.[fields[axis]!][side] ?? null) !== null;
   const press = (event: PointerEvent) => {
     const area = (event.currentTarget as Element).closest(".view")!.getBoundingClientRect();
     const gesture = newGesture("clip");
@@ -109,7 +104,7 @@ function Face({ shown, box, axis, side }: FaceProps) {
         transform={`translate(${seen.x} ${seen.y})`}
         onPointerDown={press}
         onKeyDown={keyDown}
-        onDblClick={() => setSide(axis, side, side ? kOpen : -kOpen, newGesture("clip"))}
+        onDblClick={() => setSide(axis, side, null, newGesture("clip"))}
       >
         <title>{`Clip from the ${name}: ${formatCoordinate(axis, at)} mm. Double click opens it`}</title>
         <circle class="reach" r={16} />

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { formatNumber, formatValue, panSpan, ticks, toPixel, toValue, zoomSpan } from "../../src/model/axis";
-import { logHeights } from "../../src/model/histogram";
+import { jointHeights, logHeights } from "../../src/model/histogram";
 
 const whole = { lo: 0, hi: 1000 };
 
@@ -58,5 +58,29 @@ describe("the histogram", () => {
   it("is empty beyond the data and where nothing was counted", () => {
     expect(logHeights(histogram, { lo: 10, hi: 12 }, 3)).toEqual([0, 0, 0]);
     expect(logHeights({ lo: 0, hi: 1, counts: [0, 0] }, { lo: 0, hi: 1 }, 2)).toEqual([0, 0]);
+  });
+});
+
+describe("the joint histogram", () => {
+  const histogram = {
+    x: { lo: 0, hi: 2 },
+    y: { lo: 0, hi: 3 },
+    columns: 2,
+    rows: 3,
+    counts: [0, 99, 9, 0, 0, 1],
+  };
+
+  it("has y upward and logarithmic heights", () => {
+    const heights = jointHeights(histogram, { lo: 0, hi: 2 }, { lo: 0, hi: 3 }, 2, 3);
+    const low = Math.log1p(1) / Math.log1p(99);
+    [0, low, 0.5, 0, 0, 1].forEach((height, i) => expect(heights[i]).toBeCloseTo(height));
+  });
+
+  it("is empty beyond its ends, and shows the greatest of what a cell meets", () => {
+    expect(jointHeights(histogram, { lo: 0, hi: 4 }, { lo: -3, hi: 3 }, 2, 2)).toEqual([1, 0, 0, 0]);
+  });
+
+  it("is nothing without counts", () => {
+    expect(jointHeights({ ...histogram, counts: [0, 0, 0, 0, 0, 0] }, histogram.x, histogram.y, 1, 1)).toEqual([0]);
   });
 });

@@ -2,7 +2,14 @@ import { useEffect, useState } from "preact/hooks";
 import type { Span } from "../../model/axis";
 import type { Proxy, Scene } from "../../state/scene-types";
 import { scene } from "../../state/scene";
-import { fetchHistogram, volume, type Histogram, type VolumeFacts } from "../../state/volume";
+import {
+  fetchHistogram,
+  fetchJointHistogram,
+  volume,
+  type Histogram,
+  type JointHistogram,
+  type VolumeFacts,
+} from "../../state/volume";
 
 /** What the values of a volume that rules read are. */
 export interface Domain {
@@ -73,4 +80,23 @@ export async function spanOf(name: string): Promise<Span> {
   const kind = proxies.find((one) => one.name === name)?.kind;
   if (kind !== "file" && kind !== "gradient") return domainOf(name, volume.peek(), proxies).span;
   return fetchHistogram(name).then(widened, () => ({ lo: 0, hi: 1 }));
+}
+
+/** The joint histogram of two volumes by their names in rules; null until it is there, and where there is none. */
+export function useJointHistogram(x: string, y: string): JointHistogram | null {
+  const proxies = scene.value?.proxies ?? [];
+  const known = (name: string) => name === "data" || proxies.some((proxy) => proxy.name === name);
+  const [fetched, setFetched] = useState<{ key: string; histogram: JointHistogram } | null>(null);
+  const key = known(x) && known(y) ? JSON.stringify([volume.value?.name, x, y, proxies]) : "";
+  useEffect(() => {
+    if (!key) return;
+    let wanted = true;
+    fetchJointHistogram(x, y)
+      .then((histogram) => wanted && setFetched({ key, histogram }))
+      .catch(() => {
+        // The plane can be edited without.
+      });
+    return () => void (wanted = false);
+  }, [key]);
+  return key && fetched?.key === key ? fetched.histogram : null;
 }

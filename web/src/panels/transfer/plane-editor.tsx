@@ -2,20 +2,26 @@ import { useEffect, useRef } from "preact/hooks";
 import { toHex } from "../../color";
 import { formatNumber, ticks, toPixel, toValue, type Span } from "../../model/axis";
 import { clamp } from "../../model/curve";
+import { jointHeights } from "../../model/histogram";
 import { addColumn, moveColumn, sampleRule } from "../../model/rules";
 import { newGesture } from "../../state/scene";
 import type { Rule, RuleColumn } from "../../state/scene-types";
+import type { JointHistogram } from "../../state/volume";
 import { startDrag } from "../../ui/drag";
 import { useWidth } from "../../ui/use-width";
-import type { Domain } from "./domain";
+import { useJointHistogram, type Domain } from "./domain";
 
 const height = 150;
-/** CSS px a sample of the map. */
+/** CSS px a sample of the map, and one of the histogram behind it. */
 const cell = 4;
+const countCell = 2;
 /** As the curve editor's below it. */
 const margin = 9;
+/** Above and below the outermost values [px]. */
+const frameBorder = 8;
 
-/** A 2-D rule as a map: the first volume's value to the right, the second's upward; its columns are the lines. */
+/** A 2-D rule as a map over the joint histogram of its volumes: the first one's value to the right, the second's
+ * upward; its columns are the lines. */
 export function PlaneEditor(props: {
   rule: Rule;
   span: Span;
@@ -28,6 +34,8 @@ export function PlaneEditor(props: {
   const { rule, span, along, selected } = props;
   const frame = useRef<HTMLDivElement>(null);
   const canvas = useRef<HTMLCanvasElement>(null);
+  const counts = useRef<HTMLCanvasElement>(null);
+  const histogram = useJointHistogram(rule.volume, rule.along);
   const width = useWidth(frame, 292);
   const keyGesture = useRef("");
   const { columns } = rule;
@@ -36,9 +44,9 @@ export function PlaneEditor(props: {
     (all, column) => ({ lo: Math.min(all.lo, column.at), hi: Math.max(all.hi, column.at) }),
     along.span,
   );
-  const y = (at: number) => height - 8 - toPixel(limits, height - 16, at);
+  const y = (at: number) => height - frameBorder - toPixel(limits, height - 2 * frameBorder, at);
   const atPixel = (pixel: number) => {
-    const at = clamp(toValue(limits, height - 16, height - 8 - pixel), limits.lo, limits.hi);
+    const at = clamp(toValue(limits, height - 2 * frameBorder, height - frameBorder - pixel), limits.lo, limits.hi);
     return discrete ? Math.round(at) : at;
   };
   const gap = discrete ? 1 : (limits.hi - limits.lo) / 2000;
@@ -46,6 +54,11 @@ export function PlaneEditor(props: {
   useEffect(
     () => drawMap(canvas.current!, rule, span, (row) => atPixel(row), props.materialColor),
     [rule, span, limits.lo, limits.hi, width],
+  );
+
+  useEffect(
+    () => drawCounts(counts.current!, histogram, span, limits),
+    [histogram, span.lo, span.hi, limits.lo, limits.hi, width],
   );
 
   const add = (event: MouseEvent) => {
@@ -85,6 +98,15 @@ export function PlaneEditor(props: {
   const resolution = levels.length > 1 ? (levels[1]! - levels[0]!) / 2 : 1;
   return (
     <div ref={frame} class="plane-editor">
+      <canvas
+        ref={counts}
+        class="counts"
+        role="img"
+        aria-label={histogram ? "Joint histogram of the two volumes" : "No joint histogram"}
+        width={Math.ceil(width / countCell)}
+        height={height / countCell}
+        style={{ width, height }}
+      />
       <canvas
         ref={canvas}
         width={Math.ceil(width / cell)}
@@ -156,4 +178,29 @@ function drawMap(
       context.fillRect(column, row, 1, 1);
     }
   }
+}
+
+/** Where there are voxels, the more the denser. */
+function drawCounts(canvas: HTMLCanvasElement, histogram: JointHistogram | null, span: Span, limits: Span): void {
+  const context = canvas.getContext("2d")!;
+  const { width, height: rows } = canvas;
+  context.clearRect(0, 0, width, rows);
+  if (!histogram) return;
+  const shown = (of: Span, pixels: number, border: number): Span => ({
+    lo: toValue(of, pixels - 2 * border, -border),
+    hi: toValue(of, pixels - 2 * border, pixels - border),
+  });
+  const heights = jointHeights(
+    histogram,
+    shown(span, width * countCell, margin),
+    shown(limits, height, frameBorder),
+    width,
+    rows,
+  );
+  context.fillStyle = getComputedStyle(canvas).color;
+  heights.forEach((share, i) => {
+    if (!(share > 0)) return;
+    context.globalAlpha = 0.1 + 0.75 * share;
+    context.fillRect(i % width, Math.floor(i / width), 1, 1);
+  });
 }

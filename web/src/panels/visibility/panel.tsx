@@ -132,11 +132,17 @@ export function VisibilityPanel() {
   );
 }
 
+/** Whether two entries hold at the same points. */
+function samePlace(a: Importance, b: Importance): boolean {
+  return JSON.stringify({ ...a, importance: 1 }) === JSON.stringify({ ...b, importance: 1 });
+}
+
 function ImportanceCard({ of, entry, index }: { of: Scene; entry: Importance; index: number }) {
   const at = `/visibility/important/${index}`;
   const proxy = of.proxies.findIndex((one) => one.name === entry.volume);
   const isLabels = of.proxies[proxy]?.kind === "distance";
   const isRegion = entry.center_mm !== undefined;
+  const twin = of.visibility!.important.findIndex((other) => samePlace(other, entry));
   const title = isRegion ? "Region" : isLabels ? `Labels of ${of.proxies[proxy]!.of}` : "Values";
   return (
     <div class="panel-card">
@@ -145,6 +151,9 @@ function ImportanceCard({ of, entry, index }: { of: Scene; entry: Importance; in
         <small />
         <IconButton icon="delete" label="Remove" onClick={() => edit([[at, null]], newGesture("important"))} />
       </header>
+      {twin < index && (
+        <p class="note">The same as number {twin + 1} above: the greater importance of the two counts.</p>
+      )}
       {isLabels && <LabelChoice of={of} proxy={proxy} />}
       {isRegion && <Region entry={entry} at={at} />}
       {!isLabels && !isRegion && <Values of={of} entry={entry} at={at} />}
