@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/progress.h"
 #include "camera/camera.h"
 #include "render/session.h"
 #include "voxlume/image.h"
@@ -49,6 +50,8 @@ struct LiveListener {
   std::function<void(std::uint64_t revision, const std::string& message)> trouble;
   /// A still picture gets better; a few times a second.
   std::function<void(const RenderProgress&)> progress;
+  /// How much of the volume the session has looked over, while it is made; by several threads in turn.
+  Progress preparing;
 };
 
 struct LiveOptions {
