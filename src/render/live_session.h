@@ -27,6 +27,7 @@ struct LiveFrame {
   std::uint64_t number = 0;    ///< from 1, without gaps
   std::uint64_t revision = 0;  ///< of the newest edit that it shows
   bool moving = false;         ///< drawn for speed, perhaps smaller than asked for
+  bool hurried = false;        ///< still, but edits come one after the other; it comes again after the last
   bool done = false;           ///< a stop rule of the scene is reached; the next frame follows an edit
   Image8 picture;              ///< developed, of the size it was traced at; left of the split without denoiser
   std::shared_ptr<const Image> linear;  ///< what was developed, denoised; with metadata where not moving

@@ -98,6 +98,21 @@ TEST_F(Socket, MovingPicturesAreJpeg) {
   EXPECT_EQ(page.last_picture().substr(0, 2), "\xFF\xD8");
 }
 
+TEST_F(Socket, AStillPictureIsDevelopedAgainWithoutMoving) {
+  Page page(start_with_ramp());
+  page.next("frame", [](const json& m) { return m["done"] == true; });
+  for (int i = 1; i <= 5; ++i) page.send(edit(i, "/image/exposure_ev", 0.2 * i));
+  const json last = page.next("edited", [](const json& m) { return m["seq"] == 5; });
+  page.send({{"type", "split"}, {"at", 0.5}});
+  json frame;
+  do {
+    frame = page.next("frame");
+    EXPECT_EQ(frame["moving"], false);
+    EXPECT_EQ(frame["width"], 32);
+  } while (frame["done"] != true || frame["revision"] != last["revision"]);
+  EXPECT_EQ(frame["format"], "png");
+}
+
 TEST_F(Socket, EditsAreAnsweredInOrderAndSeen) {
   Page page(start_with_ramp());
   std::uint64_t revision = page.next("scene")["revision"];
