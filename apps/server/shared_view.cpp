@@ -29,10 +29,11 @@ std::shared_ptr<const std::string> shared_text(const json& message) {
 
 json or_null(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
 
-json status_json(const std::string& stage, const std::string& name, const std::string& message = "") {
-  json out{{"type", "status"}, {"stage", stage}};
-  if (!name.empty()) out["what"] = name;
-  if (!message.empty()) out["message"] = message;
+json status_json(const OpeningStatus& status) {
+  json out{{"type", "status"}, {"stage", status.stage}};
+  if (!status.name.empty()) out["what"] = status.name;
+  if (!status.message.empty()) out["message"] = status.message;
+  if (status.share) out["share"] = *status.share;
   return out;
 }
 
@@ -42,8 +43,9 @@ json preset_drawn(const std::string& preset) { return {{"type", "preset_drawn"},
 json failure(const std::optional<PageMessage>& message, std::string_view text, const Error& error) {
   if (message) {
     if (const auto* open = std::get_if<OpenMessage>(&*message))
-      return status_json("failed", file_name(open->path), error.what());
-    if (std::holds_alternative<LoadMessage>(*message)) return status_json("failed", "scene", error.what());
+      return status_json({"failed", file_name(open->path), error.what(), {}});
+    if (std::holds_alternative<LoadMessage>(*message))
+      return status_json({"failed", "scene", error.what(), {}});
     if (const auto* wish = std::get_if<ExportMessage>(&*message))
       return {{"type", "export"}, {"state", "failed"},  {"frames_done", 0},
               {"frames", 0},      {"file", wish->file}, {"message", error.message()}};
@@ -67,12 +69,12 @@ SharedView::SharedView(boost::asio::io_context& io, Settings settings, Roots roo
       exports_(io, settings_.program, settings_.temporary / "exports",
                [this](const Json& m) { take_export_state(m); }),
       opening_(io, settings_.live,
-               {.status = [this](const auto&... of) { set_status(of...); },
+               {.status = [this](const OpeningStatus& status) { set_status(status); },
                 .opened = [this](std::shared_ptr<OpenedVolume> volume) { opened(std::move(volume)); },
                 .frame = [this](const FrameMessage& frame) { take_frame(frame); },
                 .trouble = [this](const std::string& message) { tell_trouble(message); },
                 .progress = [this](const RenderProgress& progress) { tell_progress(progress); }}) {
-  set_status("empty", "", "");
+  set_status({"empty", "", "", {}});
 }
 
 SharedView::~SharedView() {
@@ -97,7 +99,7 @@ void SharedView::opened(std::shared_ptr<OpenedVolume> volume) {
     Document document(std::move(scene), rules);
     document_.emplace(std::move(document));
   } catch (const Error& error) {
-    return set_status("failed", volume->name, error.what());
+    return set_status({"failed", volume->name, error.what(), {}});
   }
   if (volume_) opening_.retire(std::move(volume_));
   volume_ = std::move(volume);
@@ -108,7 +110,7 @@ void SharedView::opened(std::shared_ptr<OpenedVolume> volume) {
   watch_or_rest();
   volume_->session->set_split(split_);
   volume_->session->set_yielding(exporting_);
-  set_status("ready", volume_->name, "");
+  set_status({"ready", volume_->name, "", {}});
   show();
   tell_scene();
 }
@@ -353,10 +355,10 @@ std::filesystem::path SharedView::temporary_file(const std::string& extension) {
 
 void SharedView::work(std::function<void()> job) { boost::asio::post(workers_, std::move(job)); }
 
-void SharedView::set_status(const std::string& stage, const std::string& name, const std::string& message) {
-  const Json status = status_json(stage, name, message);
+void SharedView::set_status(const OpeningStatus& of) {
+  const Json status = status_json(of);
   // Whoever comes later sees what is open, not what could not be opened.
-  status_ = stage == "failed" && volume_ ? status_json("ready", volume_->name) : status;
+  status_ = of.stage == "failed" && volume_ ? status_json({"ready", volume_->name, "", {}}) : status;
   tell_all(status);
 }
 

@@ -99,7 +99,7 @@ class SharedView {
   void watch_or_rest();
   bool is_current_still(const FrameMessage& frame) const;
   void hand_out_stills(const std::shared_ptr<const LiveFrame>& frame);
-  void set_status(const std::string& stage, const std::string& name, const std::string& message);
+  void set_status(const OpeningStatus& of);
   void show();
   void tell_all(const Json& message, const Viewer* but = nullptr);
   void tell_trouble(const std::string& message);

@@ -42,15 +42,37 @@ TEST_F(Socket, HelloComesFirstAndSaysWhatThereIs) {
 TEST_F(Socket, OpeningTellsItsStagesThenTheSceneThenPictures) {
   Page page(start());
   page.send({{"type", "open"}, {"path", "ramp.nrrd"}});
-  EXPECT_EQ(page.next("status", [](const json& m) { return m["stage"] != "empty"; })["stage"], "reading");
-  EXPECT_EQ(page.next("status")["stage"], "preparing");
-  EXPECT_EQ(page.next("status")["stage"], "ready");
+  const auto new_stage = [](const json& m) { return m["stage"] != "empty" && !m.contains("share"); };
+  EXPECT_EQ(page.next("status", new_stage)["stage"], "reading");
+  EXPECT_EQ(page.next("status", new_stage)["stage"], "preparing");
+  EXPECT_EQ(page.next("status", new_stage)["stage"], "ready");
   const json scene = page.next("scene");
   EXPECT_EQ(scene["scene"]["volume"]["path"], (std::filesystem::canonical(files_) / "ramp.nrrd").string());
   EXPECT_FALSE(scene["scene"]["transfer"]["points"].empty());
   EXPECT_EQ(scene["can_undo"], false);
   const json frame = page.next("frame");
   EXPECT_EQ(frame["revision"], scene["revision"]);
+}
+
+TEST_F(Socket, OpeningTellsHowFarItIs) {
+  std::uint32_t n = 1;  // noise, which takes several parts to be inflated
+  const auto noise = [&](auto, auto, auto) { return (n = n * 1664525u + 1013904223u) >> 17; };
+  write_volume(make_volume<std::int16_t>({110, 100, 100}, noise), files_ / "noise.nrrd");
+  Page page(start());
+  page.send({{"type", "open"}, {"path", "noise.nrrd"}});
+  for (const std::string stage : {"reading", "preparing"}) {
+    double before = 0;
+    for (int i = 0; i < 4; ++i) {
+      const json status = page.next("status", [](const json& m) { return m.contains("share"); });
+      EXPECT_EQ(status["stage"], stage);
+      EXPECT_EQ(status["what"], "noise.nrrd");
+      EXPECT_GT(status["share"].get<double>(), before);
+      before = status["share"].get<double>();
+    }
+    const auto done = [&](const json& m) { return m["stage"] == stage && m.value("share", 0.0) == 1; };
+    EXPECT_GT(page.next("status", done)["share"].get<double>(), before);
+  }
+  EXPECT_EQ(page.next("status")["stage"], "ready");
 }
 
 TEST_F(Socket, APictureIsAWholePng) {
@@ -75,6 +97,21 @@ TEST_F(Socket, MovingPicturesAreJpeg) {
   const json frame = page.next("frame", [](const json& m) { return m["moving"] == true; });
   EXPECT_EQ(frame["format"], "jpeg");
   EXPECT_EQ(page.last_picture().substr(0, 2), "\xFF\xD8");
+}
+
+TEST_F(Socket, AStillPictureIsDevelopedAgainWithoutMoving) {
+  Page page(start_with_ramp());
+  page.next("frame", [](const json& m) { return m["done"] == true; });
+  for (int i = 1; i <= 5; ++i) page.send(edit(i, "/image/exposure_ev", 0.2 * i));
+  const json last = page.next("edited", [](const json& m) { return m["seq"] == 5; });
+  page.send({{"type", "split"}, {"at", 0.5}});
+  json frame;
+  do {
+    frame = page.next("frame");
+    EXPECT_EQ(frame["moving"], false);
+    EXPECT_EQ(frame["width"], 32);
+  } while (frame["done"] != true || frame["revision"] != last["revision"]);
+  EXPECT_EQ(frame["format"], "png");
 }
 
 TEST_F(Socket, EditsAreAnsweredInOrderAndSeen) {
