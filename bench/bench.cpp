@@ -29,13 +29,18 @@ struct Render {
   double wall_s;
 };
 
-std::unique_ptr<CompiledScene> load(const std::string& path,
-                                    const std::function<void(SceneDescription&)>& edit) {
+using Edit = std::function<void(SceneDescription&)>;
+
+/// The scene of that file with what `edit` changes in the file and `edit_resolved` in what it says in full.
+std::unique_ptr<CompiledScene> load(const std::string& path, const Edit& edit,
+                                    const Edit& edit_resolved = {}) {
   SceneDescription scene = read_scene(path);
   if (edit) edit(scene);
   Volume volume = open_volume(scene.volume);
   const VolumeStatistics statistics = compute_statistics(make_grid_view(volume));
-  return std::make_unique<CompiledScene>(resolve(scene, volume, statistics), std::move(volume), statistics);
+  scene = resolve(scene, volume, statistics);
+  if (edit_resolved) edit_resolved(scene);
+  return std::make_unique<CompiledScene>(scene, std::move(volume), statistics);
 }
 
 Render render(const CompiledScene& scene, int threads, int spp) {
@@ -107,8 +112,6 @@ Json report(const std::vector<Variant>& variants) {
   return out;
 }
 
-using Edit = std::function<void(SceneDescription&)>;
-
 /// The main line's tracker: scalar code over macrocells, independent random numbers.
 void as_main_line(SceneDescription& s) {
   s.render.accelerator = "macrocell";
@@ -121,14 +124,16 @@ Edit with_simd(const char* name) {
 }
 
 Json tracking(const std::string& folder, int rounds) {
-  const auto scene = [&](const Edit& edit) {
-    return std::shared_ptr<CompiledScene>(load(folder + "/ct-bone.json", edit));
+  const auto scene = [&](const Edit& edit, const Edit& edit_resolved = {}) {
+    return std::shared_ptr<CompiledScene>(load(folder + "/ct-bone.json", edit, edit_resolved));
   };
-  const auto two_lit = scene([](SceneDescription& s) {
+  const auto under_default_lights = [](SceneDescription& s) {
     s.render.max_scatter = 2;
     s.lights.reset();
     s.environment.reset();
-  });
+  };
+  const auto two_lit = scene(under_default_lights);
+  const auto one_lit = scene(under_default_lights, [](SceneDescription& s) { s.lights->resize(1); });
   const auto widest = scene({});
   std::vector<Variant> variants;
   const auto add = [&](const std::string& name, std::shared_ptr<CompiledScene> of, int threads, int spp) {
@@ -138,6 +143,7 @@ Json tracking(const std::string& folder, int rounds) {
   const std::size_t auto_1 = add("1 scattering", widest, 1, 32), auto_2 = add("1 scattering", widest, 2, 64);
   const std::size_t two_1 = add("2 scatterings, default lights", two_lit, 1, 16);
   add("2 scatterings, default lights", two_lit, 2, 32);
+  const std::size_t one_1 = add("2 scatterings, one area light and environment", one_lit, 1, 16);
   const std::size_t main_line = add("1 scattering, scalar code over macrocells", scene(as_main_line), 1, 8);
   const std::size_t scalar = add("1 scattering, scalar code", scene(with_simd("scalar")), 1, 8);
   for (const SimdTarget target : {SimdTarget::kSse4, SimdTarget::kAvx2, SimdTarget::kNeon})
@@ -151,7 +157,8 @@ Json tracking(const std::string& folder, int rounds) {
           {"speedup_2_threads", per_sample(auto_1, auto_2)},
           {"speedup_over_scalar_same_accelerator", per_sample(scalar, auto_1)},
           {"speedup_over_scalar_macrocells", per_sample(main_line, auto_1)},
-          {"rate_of_2_scatterings_over_1", per_sample(auto_1, two_1)}};
+          {"rate_of_2_scatterings_over_1", per_sample(auto_1, two_1)},
+          {"rate_of_2_scatterings_over_1_one_area_light", per_sample(auto_1, one_1)}};
 }
 
 /// `volume` with `factor` times as many voxels along each axis, interpolated.

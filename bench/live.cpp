@@ -29,7 +29,7 @@ double percentile(std::vector<double> values, double share) {
 class Watched {
  public:
   Watched(const SceneDescription& scene, const Volume& volume)
-      : live_(scene, volume, {[this](std::shared_ptr<const LiveFrame> frame) { hear(std::move(frame)); }, {}, {}}),
+      : live_(scene, volume, {[this](std::shared_ptr<const LiveFrame> frame) { hear(std::move(frame)); }, {}, {}, {}}),
         scene_(live_.session().description()) {}
 
   /// Shows the scene after `change`.

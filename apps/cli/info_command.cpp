@@ -62,9 +62,9 @@ Json named_labels(const Volume& volume, const VolumeStatistics& statistics, cons
   return labels;
 }
 
-Json describe(const Volume& volume, const std::string& path) {
+Json describe(const Volume& volume, const std::string& path, const Progress& progress) {
   const GridView grid = make_grid_view(volume);
-  const VolumeStatistics statistics = compute_statistics(grid);
+  const VolumeStatistics statistics = compute_statistics(grid, progress);
   std::array<double, 3> extent{};
   for (std::size_t a = 0; a < 3; ++a) extent[a] = static_cast<double>(volume.size[a]) * volume.spacing_mm[a];
   Json percentiles = Json::object();
@@ -142,10 +142,15 @@ struct InfoRequest {
 int show_info(const InfoRequest& request) {
   SceneDescription scene = scene_of_input(request.input);
   request.flags.apply(scene);
+  ProgressLine progress;
+  progress.show("reading " + request.input);
   Volume volume;
-  with_scene_name(request.input, [&] { volume = open_volume(scene.volume); });
+  with_scene_name(request.input,
+                  [&] { volume = open_volume(scene.volume, progress.of("reading " + request.input)); });
+  progress.clear();
   print_warnings(volume.warnings);
-  const Json info = describe(volume, scene.volume.path);
+  const Json info = describe(volume, scene.volume.path, progress.of("looking over " + request.input));
+  progress.clear();
   if (request.json) {
     // Paths need not be UTF-8.
     fmt::print("{}\n", info.dump(2, ' ', false, Json::error_handler_t::replace));

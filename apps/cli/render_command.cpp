@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <memory>
 
 #include "cli/commands.h"
@@ -39,17 +37,15 @@ void check_animation_output(const RenderRequest& request, const SceneDescription
 /// Reads and compiles; says what is going on and what is odd.
 void load(RenderRun& run, const SceneDescription& scene) {
   run.progress.show("reading " + scene.volume.path);
-  Volume volume = open_volume(scene.volume);
+  Volume volume = open_volume(scene.volume, run.progress.of("reading " + scene.volume.path));
   run.progress.clear();
   print_warnings(volume.warnings);
   run.progress.show("preparing");
-  Session& session = run.session.emplace(scene, std::move(volume));
+  Session& session = run.session.emplace(scene, std::move(volume), run.progress.of("preparing"));
   const bool frame = scene.animation && !run.request.output.empty();
   session.compile(
       frame ? session.frame_description(requested_frames(run.request, scene).first) : session.description(),
-      [&](double share) {
-        run.progress.show(fmt::format("looking for what is important: {:.0f} %", 100 * share));
-      });
+      run.progress.of("looking for what is important"));
   run.progress.clear();
   print_warnings(session.compiled().warnings());
 }

@@ -28,6 +28,11 @@ void ProgressLine::show(const std::string& text) {
   std::fflush(stderr);
 }
 
+Progress ProgressLine::of(const std::string& what) {
+  if (!visible_) return {};
+  return [this, what](double share) { show(fmt::format("{}: {:.0f} %", what, 100 * share)); };
+}
+
 void ProgressLine::clear() { show(""); }
 
 std::string progress_text(const RenderProgress& progress, const StopRule& stop) {

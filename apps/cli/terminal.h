@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "base/progress.h"
 #include "render/sequence.h"
 #include "voxlume/renderer.h"
 
@@ -18,6 +19,8 @@ class ProgressLine {
 
   bool visible() const { return visible_; }
   void show(const std::string& text);
+  /// Shows `what` with the share of it that is done; lives as long as this.
+  Progress of(const std::string& what);
   void clear();
 
  private:

@@ -84,7 +84,7 @@ Access::Access(std::string token, std::string bound_to, unsigned short port)
       cookie_name_("voxlume_" + std::to_string(port)) {}
 
 std::string Access::set_cookie() const {
-  return cookie_name_ + "=" + token_ + "; Path=/; HttpOnly; SameSite=Strict";
+  return cookie_name_ + "=" + token_ + "; Path=/; HttpOnly; SameSite=Lax";
 }
 
 bool Access::is_host(std::string_view host_header) const {
@@ -104,6 +104,11 @@ bool is_same_origin(std::string_view origin, std::string_view host_header) {
     if (origin.starts_with(scheme))
       return !host_header.empty() && equal_without_case(origin.substr(scheme.size()), host_header);
   return false;
+}
+
+bool may_ask(std::string_view sec_fetch_site, std::string_view path) {
+  const bool of_other = sec_fetch_site == "cross-site" || sec_fetch_site == "same-site";
+  return !of_other || path == "/";
 }
 
 bool is_loopback(std::string_view address) {

@@ -22,7 +22,8 @@ class Access {
   const std::string& token() const { return token_; }
   const std::string& address() const { return bound_to_; }
   const std::string& cookie_name() const { return cookie_name_; }
-  /// The header that makes a browser keep the token.
+  /// The header that makes a browser keep the token. Of requests that other sites' pages make, the browser
+  /// sends it with links that are followed alone.
   std::string set_cookie() const;
 
   bool is_token(std::string_view text) const { return equal_in_constant_time(text, token_); }
@@ -39,6 +40,10 @@ class Access {
 
 /// Whether the page at `origin` is the one that `host_header` names: the same host and port.
 bool is_same_origin(std::string_view origin, std::string_view host_header);
+
+/// Whether a page of this server asks for `path`, or somebody followed a link to the page. `sec_fetch_site`
+/// is the browser's word on who asks; empty where it says nothing.
+bool may_ask(std::string_view sec_fetch_site, std::string_view path);
 
 /// Whether nobody but this machine reaches the address.
 bool is_loopback(std::string_view address);

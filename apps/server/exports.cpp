@@ -68,9 +68,13 @@ pid_t spawn(const std::vector<std::string>& arguments, const fs::path& folder) {
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   posix_spawn_file_actions_addclosefrom_np(&actions, STDERR_FILENO + 1);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);  // its own, so that ffmpeg ends with it
   pid_t child = -1;
-  const int failed = ::posix_spawn(&child, argv[0], &actions, nullptr, argv.data(), environ);
+  const int failed = ::posix_spawn(&child, argv[0], &actions, &attributes, argv.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
+  posix_spawnattr_destroy(&attributes);
   if (failed)
     fail(ErrorCode::kInternal, arguments.front(), std::string("cannot be started: ") + std::strerror(failed));
   ::setpriority(PRIO_PROCESS, static_cast<id_t>(child), kNice);
@@ -86,7 +90,7 @@ Exports::Exports(asio::io_context& io, fs::path program, fs::path folder,
 void Exports::end() {
   zipping_.join();
   if (!job_ || job_->process <= 0) return;
-  ::kill(job_->process, SIGKILL);  // nobody will ask for what it has
+  ::kill(-job_->process, SIGKILL);  // nobody will ask for what it has
   ::waitpid(job_->process, nullptr, 0);
   job_.reset();
 }
@@ -122,7 +126,7 @@ void Exports::start(SceneDescription scene, const std::string& file) {
 void Exports::cancel() {
   if (!job_) return;
   job_->cancelled = true;
-  if (job_->process > 0) ::kill(job_->process, SIGINT);
+  if (job_->process > 0) ::kill(-job_->process, SIGINT);
 }
 
 void Exports::watch() {

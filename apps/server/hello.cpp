@@ -4,10 +4,12 @@
 
 #include "base/file_extension.h"
 #include "denoise/denoiser.h"
+#include "image_io/movie.h"
 #include "scene/material_library.h"
 #include "scene/presets.h"
 #include "scene/scene_file.h"
 #include "server/hex_text.h"
+#include "voxlume/error.h"
 
 namespace voxlume::server {
 
@@ -54,6 +56,15 @@ void add_environments(const fs::path& folder, json& out) {
   }
 }
 
+bool has_ffmpeg() {
+  try {
+    find_ffmpeg();
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 std::vector<Sample> find_samples(const fs::path& folder) {
@@ -68,7 +79,10 @@ std::vector<Sample> find_samples(const fs::path& folder) {
 }
 
 json hello_message(const std::vector<Sample>& samples, const fs::path& environments, const Roots& roots) {
-  json out{{"type", "hello"}, {"version", VOXLUME_VERSION}, {"folder", roots.folder().filename().string()}};
+  json out{{"type", "hello"},
+           {"version", VOXLUME_VERSION},
+           {"folder", roots.folder().filename().string()},
+           {"movies", has_ffmpeg()}};
   out["presets"] = json::array();
   for (const Preset& preset : presets())
     out["presets"].push_back({{"name", preset.name}, {"summary", preset.summary}});

@@ -26,10 +26,20 @@ constexpr auto kFarewell = std::chrono::seconds(3);
 
 std::string_view text(beast::string_view view) { return {view.data(), view.size()}; }
 
-template <class Request>
-std::string_view field(const Request& request, http::field name) {
+template <class Request, class Name>
+std::string_view field(const Request& request, Name name) {
   const auto found = request.find(name);
   return found == request.end() ? std::string_view() : text(found->value());
+}
+
+Reply upload_refusal(const std::exception& reason) {
+  const auto* error = dynamic_cast<const Error*>(&reason);
+  const bool wrong = error != nullptr && error->code() == ErrorCode::kBadParameter;
+  const bool too_many = error != nullptr && error->code() == ErrorCode::kUnsupported;
+  return error_reply(wrong      ? Status::bad_request
+                     : too_many ? Status::payload_too_large
+                                : Status::service_unavailable,
+                     reason.what());
 }
 
 template <class Message>
@@ -87,7 +97,8 @@ std::optional<Reply> HttpConnection::refusal(const Request& request, const Targe
     return error_reply(Status::forbidden, "this viewer has another address; open the one that it printed");
   const bool foreign =
       request.count(http::field::origin) > 0 && !is_same_origin(field(request, http::field::origin), host);
-  if (foreign) return error_reply(Status::forbidden, "another site's page may not ask this viewer");
+  if (foreign || !may_ask(field(request, "Sec-Fetch-Site"), target.path))
+    return error_reply(Status::forbidden, "another site's page may not ask this viewer");
   if (request.method() == http::verb::get && target.path == "/" && target.query.contains("token") &&
       parts_.access.is_token(target.value("token"))) {
     Reply reply;
@@ -116,12 +127,16 @@ void HttpConnection::put(const Target& target) {
   if (target.path != "/api/upload")
     return reply(error_reply(Status::not_found, "there is no such request"), false);
   const std::uint64_t room = parts_.uploads.room();
-  if (parser_->content_length().value_or(0) > room)
-    return reply(error_reply(Status::payload_too_large, "there is no room for a file of that size"), false);
+  std::optional<UploadSet> set;
+  if (target.query.contains("set")) set = {target.value("set"), target.value("folder")};
   try {
-    upload_ = parts_.uploads.begin(target.value("name"));
-  } catch (const Error& error) {
-    return reply(error_reply(Status::bad_request, error.what()), false);
+    upload_ = parts_.uploads.begin(target.value("name"), set);
+  } catch (const std::exception& error) {
+    return reply(upload_refusal(error), false);
+  }
+  if (parser_->content_length().value_or(0) > room) {
+    upload_.reset();
+    return reply(error_reply(Status::payload_too_large, "there is no room for a file of that size"), false);
   }
   const bool expects = beast::iequals(parser_->get()[http::field::expect], "100-continue");
   upload_parser_.emplace(std::move(*parser_));
@@ -163,8 +178,8 @@ void HttpConnection::finish_upload() {
   Reply answer;
   try {
     answer = json_reply(text_of({{"path", upload_->finish().string()}}));
-  } catch (const Error& error) {
-    answer = error_reply(Status::service_unavailable, error.what());
+  } catch (const std::exception& error) {
+    answer = upload_refusal(error);
   }
   upload_.reset();
   upload_parser_.reset();

@@ -93,7 +93,18 @@ LoadMessage read_load(const json& message) {
   return {scene};
 }
 
+Vec3d position(const json& value, const std::string& where) {
+  constexpr double kMost_mm = 1e6;
+  if (!value.is_array() || value.size() != 3) refuse(where, "expected three numbers");
+  const auto coordinate = [&](std::size_t i) {
+    return number(value[i], where + "/" + std::to_string(i), -kMost_mm, kMost_mm);
+  };
+  return {coordinate(0), coordinate(1), coordinate(2)};
+}
+
 ProbeMessage read_probe(const json& message) {
+  if (message.contains("position_mm"))
+    return {whole(member(message, "id"), "/id"), 0, 0, position(message["position_mm"], "/position_mm")};
   return {whole(member(message, "id"), "/id"), number(member(message, "x"), "/x", 0, 1),
           number(member(message, "y"), "/y", 0, 1)};
 }

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/vec.h"
 #include "server/document.h"
 
 namespace voxlume::server {
@@ -34,7 +35,8 @@ struct SeekMessage {
 };
 struct ProbeMessage {
   std::int64_t id = 0;
-  double x = 0, y = 0;  ///< [0, 1] from the picture's top left
+  double x = 0, y = 0;                 ///< [0, 1] from the picture's top left
+  std::optional<Vec3d> position_mm{};  ///< LPS, in place of x and y
 };
 struct ExportMessage {
   std::string file;

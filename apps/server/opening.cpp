@@ -27,7 +27,7 @@ Opening::~Opening() {
 
 void Opening::open(const SceneDescription& scene) {
   const std::uint64_t number = ++newest_;
-  listener_.status("reading", file_name(scene.volume.path), "");
+  listener_.status({"reading", file_name(scene.volume.path), "", {}});
   asio::post(thread_, [this, scene, number] { read(scene, number); });
 }
 
@@ -41,21 +41,28 @@ void Opening::tell(std::uint64_t number, std::function<void()> work) {
   });
 }
 
+void Opening::tell_status(std::uint64_t number, OpeningStatus status) {
+  tell(number, [this, status = std::move(status)] { listener_.status(status); });
+}
+
 void Opening::read(const SceneDescription& scene, std::uint64_t number) {
   const std::string name = file_name(scene.volume.path);
-  const auto failed = [&](const std::string& message) {
-    tell(number, [this, name, message] { listener_.status("failed", name, message); });
+  const auto failed = [&](const std::string& message) { tell_status(number, {"failed", name, message, {}}); };
+  const auto progress = [&](const char* stage) {
+    return [this, number, stage, name](double share) { tell_status(number, {stage, name, "", share}); };
   };
   try {
     if (number != newest_) return;
-    Volume volume = open_volume(scene.volume);
+    Volume volume = open_volume(scene.volume, progress("reading"));
     if (number != newest_) return;
-    tell(number, [this, name] { listener_.status("preparing", name, ""); });
+    tell_status(number, {"preparing", name, "", {}});
     auto opened = std::make_shared<OpenedVolume>();
     opened->name = name;
     opened->numbering = std::make_shared<FrameNumbering>();
-    opened->session = std::make_unique<LiveSession>(scene, std::move(volume),
-                                                    session_listener(number, opened->numbering), options_);
+    LiveListener listener = session_listener(number, opened->numbering);
+    listener.preparing = progress("preparing");
+    opened->session =
+        std::make_unique<LiveSession>(scene, std::move(volume), std::move(listener), options_);
     opened->sides = std::make_unique<SideVolumes>(opened->session->session().volume());
     const Session& session = opened->session->session();
     opened->joint = std::make_unique<JointHistograms>(session.volume(), session.statistics());

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "render/live_session.h"
@@ -23,10 +24,17 @@ struct OpenedVolume {
   std::shared_ptr<FrameNumbering> numbering;  ///< set before the first frame is asked for
 };
 
+/// How far an open is.
+struct OpeningStatus {
+  std::string stage;    ///< "reading", "preparing", or "failed"
+  std::string name;     ///< of the volume's file or folder
+  std::string message;  ///< what to do when it failed
+  std::optional<double> share;  ///< of the stage, where it is known
+};
+
 /// Whom Opening tells. All are called on the thread of its io_context, and of the newest open alone.
 struct OpeningListener {
-  /// "reading", "preparing", or "failed" with what to do.
-  std::function<void(const std::string& stage, const std::string& name, const std::string& message)> status;
+  std::function<void(const OpeningStatus&)> status;
   std::function<void(std::shared_ptr<OpenedVolume>)> opened;
   // Of the session that was opened last.
   std::function<void(const FrameMessage&)> frame;
@@ -49,6 +57,7 @@ class Opening {
 
  private:
   void read(const SceneDescription& scene, std::uint64_t number);
+  void tell_status(std::uint64_t number, OpeningStatus status);
   LiveListener session_listener(std::uint64_t number, std::shared_ptr<FrameNumbering> numbering);
   /// Calls `work` on the io_context's thread unless another open came since.
   void tell(std::uint64_t number, std::function<void()> work);

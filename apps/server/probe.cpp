@@ -25,6 +25,11 @@ std::optional<Vec3d> place_in_picture(const LiveFrame& frame, double x, double y
   return Vec3d(ray.origin) + Vec3d(ray.direction) * static_cast<double>(frame.depth_mm[i]);
 }
 
+bool is_inside(const Volume& volume, Vec3d p_world) {
+  return make_grid_view(volume).index_box().contains(
+      Vec3f(world_from_index(volume).inverse().point(p_world)));
+}
+
 json data_at(const Volume& volume, Vec3d p_world) {
   const GridView grid = make_grid_view(volume);
   const Vec3d p_index = world_from_index(volume).inverse().point(p_world);

@@ -13,6 +13,9 @@ namespace voxlume::server {
 /// pixel [LPS mm]. Empty where there is none.
 std::optional<Vec3d> place_in_picture(const LiveFrame& frame, double x, double y);
 
+/// Whether the volume has data at a place.
+bool is_inside(const Volume& volume, Vec3d p_world);
+
 /// The data at a place: {"position_mm", "voxel", "value"}. The voxel is the nearest one; the value is
 /// interpolated, null where it is not finite.
 nlohmann::json data_at(const Volume& volume, Vec3d p_world);

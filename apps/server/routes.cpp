@@ -213,7 +213,13 @@ void Routes::picture(const std::string& extension, const Respond& respond) const
 }
 
 Reply Routes::scene_file() const {
-  Reply reply = json_reply(write_scene(view_.document()->scene()));
+  SceneDescription scene = view_.document()->scene();
+  const std::set<std::string> beside = view_.uploads().name_uploads(scene);
+  Reply reply = json_reply(write_scene(scene));
+  if (!beside.empty()) {
+    constexpr bool kAscii = true;
+    reply.headers.emplace_back("X-Beside", nlohmann::json(beside).dump(-1, ' ', kAscii));
+  }
   return attachment(std::move(reply), "scene.json");
 }
 

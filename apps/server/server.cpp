@@ -121,7 +121,7 @@ struct Server::Parts {
         access(make_token(), options.address, port),
         uploads(temporary.path() / "uploads", options.most_upload_bytes),
         view(io, view_settings(options, temporary.path()),
-             allowed_roots(options, temporary.path() / "uploads")),
+             allowed_roots(options, temporary.path() / "uploads"), uploads),
         routes(view, PageFiles(options.page)),
         listener(std::move(acceptor), {access, view, routes, uploads}) {}
 

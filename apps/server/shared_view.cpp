@@ -13,6 +13,9 @@
 #include "voxlume/error.h"
 
 namespace voxlume::server {
+
+namespace fs = std::filesystem;
+
 namespace {
 
 using nlohmann::json;
@@ -26,10 +29,11 @@ std::shared_ptr<const std::string> shared_text(const json& message) {
 
 json or_null(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
 
-json status_json(const std::string& stage, const std::string& name, const std::string& message = "") {
-  json out{{"type", "status"}, {"stage", stage}};
-  if (!name.empty()) out["what"] = name;
-  if (!message.empty()) out["message"] = message;
+json status_json(const OpeningStatus& status) {
+  json out{{"type", "status"}, {"stage", status.stage}};
+  if (!status.name.empty()) out["what"] = status.name;
+  if (!status.message.empty()) out["message"] = status.message;
+  if (status.share) out["share"] = *status.share;
   return out;
 }
 
@@ -39,8 +43,9 @@ json preset_drawn(const std::string& preset) { return {{"type", "preset_drawn"},
 json failure(const std::optional<PageMessage>& message, std::string_view text, const Error& error) {
   if (message) {
     if (const auto* open = std::get_if<OpenMessage>(&*message))
-      return status_json("failed", file_name(open->path), error.what());
-    if (std::holds_alternative<LoadMessage>(*message)) return status_json("failed", "scene", error.what());
+      return status_json({"failed", file_name(open->path), error.what(), {}});
+    if (std::holds_alternative<LoadMessage>(*message))
+      return status_json({"failed", "scene", error.what(), {}});
     if (const auto* wish = std::get_if<ExportMessage>(&*message))
       return {{"type", "export"}, {"state", "failed"},  {"frames_done", 0},
               {"frames", 0},      {"file", wish->file}, {"message", error.message()}};
@@ -54,21 +59,22 @@ json failure(const std::optional<PageMessage>& message, std::string_view text, c
 
 }  // namespace
 
-SharedView::SharedView(boost::asio::io_context& io, Settings settings, Roots roots)
+SharedView::SharedView(boost::asio::io_context& io, Settings settings, Roots roots, Uploads& uploads)
     : io_(io),
       settings_(std::move(settings)),
       roots_(std::move(roots)),
+      uploads_(uploads),
       still_timer_(io),
       thumbnails_(io, [this](const std::string& preset) { tell_all(preset_drawn(preset)); }),
       exports_(io, settings_.program, settings_.temporary / "exports",
                [this](const Json& m) { take_export_state(m); }),
       opening_(io, settings_.live,
-               {.status = [this](const auto&... of) { set_status(of...); },
+               {.status = [this](const OpeningStatus& status) { set_status(status); },
                 .opened = [this](std::shared_ptr<OpenedVolume> volume) { opened(std::move(volume)); },
                 .frame = [this](const FrameMessage& frame) { take_frame(frame); },
                 .trouble = [this](const std::string& message) { tell_trouble(message); },
                 .progress = [this](const RenderProgress& progress) { tell_progress(progress); }}) {
-  set_status("empty", "", "");
+  set_status({"empty", "", "", {}});
 }
 
 SharedView::~SharedView() {
@@ -93,7 +99,7 @@ void SharedView::opened(std::shared_ptr<OpenedVolume> volume) {
     Document document(std::move(scene), rules);
     document_.emplace(std::move(document));
   } catch (const Error& error) {
-    return set_status("failed", volume->name, error.what());
+    return set_status({"failed", volume->name, error.what(), {}});
   }
   if (volume_) opening_.retire(std::move(volume_));
   volume_ = std::move(volume);
@@ -104,7 +110,7 @@ void SharedView::opened(std::shared_ptr<OpenedVolume> volume) {
   watch_or_rest();
   volume_->session->set_split(split_);
   volume_->session->set_yielding(exporting_);
-  set_status("ready", volume_->name, "");
+  set_status({"ready", volume_->name, "", {}});
   show();
   tell_scene();
 }
@@ -205,6 +211,7 @@ void SharedView::take(Viewer&, const RedoMessage&) {
 
 void SharedView::take(Viewer&, const LoadMessage& message) {
   SceneDescription scene = parse_scene(text_of(message.scene), "scene");
+  find_uploads(scene, {});
   roots_.resolve_paths(scene, document_ ? scene_paths(document_->scene()) : std::set<std::string>{});
   keep_screen_size(scene);
   if (!document_ || !(scene.volume == document_->scene().volume)) return open(scene);
@@ -215,9 +222,11 @@ void SharedView::take(Viewer&, const LoadMessage& message) {
 
 void SharedView::take(Viewer&, const OpenMessage& message) {
   if (message.path == kPhantomPath) return open(fresh_scene(std::string(kPhantomPath)));
-  const std::filesystem::path path = roots_.resolve_to_open(message.path);
+  const std::filesystem::path path =
+      roots_.resolve_to_open(uploads_.opened_as(roots_.resolve(message.path)).string());
   if (lower_extension(path) != ".json") return open(fresh_scene(path.string()));
   SceneDescription scene = read_scene(path);
+  find_uploads(scene, path.parent_path());
   roots_.resolve_paths(scene);
   keep_screen_size(scene);
   open(scene);
@@ -238,7 +247,13 @@ void SharedView::take(Viewer&, const SeekMessage& message) {
 
 void SharedView::take(Viewer& from, const ProbeMessage& message) {
   Json answer{{"type", "probe"}, {"id", message.id}, {"hit", false}};
-  const auto place = frame_ ? place_in_picture(*frame_->frame, message.x, message.y) : std::nullopt;
+  std::optional<Vec3d> place;
+  if (message.position_mm) {
+    if (volume_ && is_inside(volume_->session->session().volume(), *message.position_mm))
+      place = message.position_mm;
+  } else if (frame_) {
+    place = place_in_picture(*frame_->frame, message.x, message.y);
+  }
   if (!place) return from.send(shared_text(answer));
   work([this, volume = volume_, scene = document_->scene(), place = *place, answer,
         viewer = from.weak_from_this()]() mutable {
@@ -268,6 +283,23 @@ void SharedView::take(Viewer& from, const ShownMessage& message) { from.shown(me
 Document& SharedView::open_document() {
   if (!document_) throw Error(ErrorCode::kBadParameter, "", "nothing is open");
   return *document_;
+}
+
+void SharedView::find_uploads(SceneDescription& scene, const fs::path& scene_folder) const {
+  const bool is_file = !scene_folder.empty();
+  for_each_path(scene, [&](std::string& path) {
+    const fs::path given = fs::path(path).lexically_normal();
+    if (is_file ? given.parent_path() != scene_folder : given.has_parent_path()) return;
+    const fs::path place = is_file ? given : roots_.folder() / given;
+    const fs::path uploaded = uploads_.find(given.filename().string());
+    std::error_code failed;
+    const bool there = fs::exists(fs::symlink_status(place, failed));
+    if (there && (is_file || uploaded.empty())) return;
+    if (uploaded.empty())
+      throw Error(ErrorCode::kFileNotFound, given.filename().string(),
+                  "no such file beside the scene; drop it on the page first, then load the scene again");
+    path = uploaded.string();
+  });
 }
 
 SceneDescription SharedView::fresh_scene(const std::string& path) const {
@@ -323,10 +355,10 @@ std::filesystem::path SharedView::temporary_file(const std::string& extension) {
 
 void SharedView::work(std::function<void()> job) { boost::asio::post(workers_, std::move(job)); }
 
-void SharedView::set_status(const std::string& stage, const std::string& name, const std::string& message) {
-  const Json status = status_json(stage, name, message);
+void SharedView::set_status(const OpeningStatus& of) {
+  const Json status = status_json(of);
   // Whoever comes later sees what is open, not what could not be opened.
-  status_ = stage == "failed" && volume_ ? status_json("ready", volume_->name) : status;
+  status_ = of.stage == "failed" && volume_ ? status_json({"ready", volume_->name, "", {}}) : status;
   tell_all(status);
 }
 

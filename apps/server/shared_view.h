@@ -18,6 +18,7 @@
 #include "server/opening.h"
 #include "server/roots.h"
 #include "server/thumbnails.h"
+#include "server/uploads.h"
 
 namespace voxlume::server {
 
@@ -35,10 +36,12 @@ class SharedView {
     std::filesystem::path temporary;     ///< a folder for what is removed at the end
   };
 
-  SharedView(boost::asio::io_context& io, Settings settings, Roots roots);
+  /// `uploads` are below one of the roots.
+  SharedView(boost::asio::io_context& io, Settings settings, Roots roots, Uploads& uploads);
   ~SharedView();
 
   const Roots& roots() const { return roots_; }
+  const Uploads& uploads() const { return uploads_; }
 
   /// Opens a scene and its volume, whose paths may be read, instead of what is open.
   void open(const SceneDescription& scene);
@@ -96,7 +99,7 @@ class SharedView {
   void watch_or_rest();
   bool is_current_still(const FrameMessage& frame) const;
   void hand_out_stills(const std::shared_ptr<const LiveFrame>& frame);
-  void set_status(const std::string& stage, const std::string& name, const std::string& message);
+  void set_status(const OpeningStatus& of);
   void show();
   void tell_all(const Json& message, const Viewer* but = nullptr);
   void tell_trouble(const std::string& message);
@@ -105,10 +108,15 @@ class SharedView {
   Json scene_message() const;
   Json edited_message(const Json& sections) const;
   void keep_screen_size(SceneDescription& scene) const;
+  /// Completes paths that are the names of uploads. Of a scene file in `scene_folder` what lies beside it
+  /// comes first, of one that a page has (empty) the uploads. Throws Error kFileNotFound where there is
+  /// neither.
+  void find_uploads(SceneDescription& scene, const std::filesystem::path& scene_folder) const;
 
   boost::asio::io_context& io_;
   const Settings settings_;
   Roots roots_;
+  Uploads& uploads_;
   std::map<const Viewer*, std::shared_ptr<Viewer>> viewers_;
   std::uint64_t page_numbers_ = 0;
 

@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -29,6 +30,9 @@ struct ReadOptions {
   /// Refuse volumes of more than this many bytes; 0 takes what the machine has available (not asked of
   /// voxels that are mapped from their file).
   std::uint64_t memory_limit_bytes = 0;
+  /// Hears of the share that is read, where it is known: growing, at most once a percent, by the thread that
+  /// reads; 1 when all is read, and nothing after an error. Must not throw.
+  std::function<void(double share)> progress;
 };
 
 /// Reads a volume: NRRD, NHDR, MetaImage, NIfTI-1 and -2, a DICOM folder (the largest series in it) or file,

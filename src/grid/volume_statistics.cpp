@@ -46,7 +46,7 @@ struct Extent {
 };
 
 template <class T>
-Extent find_extent(const T* voxels, const GridView& grid) {
+Extent find_extent(const T* voxels, const GridView& grid, ProgressCounter& slices_done) {
   Extent total;
   std::mutex mutex;
   parallel_for(grid.size[2], 4, [&](std::int64_t k) {
@@ -65,6 +65,7 @@ Extent find_extent(const T* voxels, const GridView& grid) {
     total.lower = std::min(total.lower, extent.lower);
     total.upper = std::max(total.upper, extent.upper);
     total.nonfinite += extent.nonfinite;
+    slices_done.add();
   });
   return total;
 }
@@ -114,7 +115,8 @@ struct Histograms {
 /// Counts values by bin_of(value) and gradients by their magnitude, row by row, so that every slice comes
 /// from memory once. Addition of counts does not depend on the order.
 template <class T, class BinOf>
-Histograms count_voxels(const T* voxels, const GridView& grid, const BinOf& bin_of) {
+Histograms count_voxels(const T* voxels, const GridView& grid, const BinOf& bin_of,
+                        ProgressCounter& slices_done) {
   Vec3f per_mm;  // one over twice the spacing of each axis
   for (int a = 0; a < 3; ++a) per_mm[a] = 0.5f * grid.step_index[a] / grid.step_mm;
   Histograms total;
@@ -135,6 +137,7 @@ Histograms count_voxels(const T* voxels, const GridView& grid, const BinOf& bin_
                           magnitudes.data());
         gradients.add_row(grid.size[0], [&](std::int64_t i) { return magnitude_bin(magnitudes[i]); });
       }
+      slices_done.add();
     }
     const std::lock_guard lock(mutex);
     values.add_to(total.values);
@@ -156,9 +159,10 @@ float gradient_percentile(const Counts& counts, double fraction) {
 
 /// Integers of up to 16 bits: a bin per value.
 template <class T>
-VolumeStatistics statistics_of_short(const T* voxels, const GridView& grid) {
+VolumeStatistics statistics_of_short(const T* voxels, const GridView& grid, const Progress& progress) {
   constexpr int kLowest = std::numeric_limits<T>::lowest();
-  const Histograms counts = count_voxels(voxels, grid, [](T v) { return int{v} - kLowest; });
+  ProgressCounter slices_done(grid.size[2], progress);
+  const Histograms counts = count_voxels(voxels, grid, [](T v) { return int{v} - kLowest; }, slices_done);
   VolumeStatistics out;
   for (int b = 0; b < kBins; ++b)
     if (counts.values[b]) out.histogram.emplace_back(static_cast<float>(b + kLowest), counts.values[b]);
@@ -170,9 +174,10 @@ VolumeStatistics statistics_of_short(const T* voxels, const GridView& grid) {
 
 /// Other types: bins that divide the range, which is found first.
 template <class T>
-VolumeStatistics statistics_of_wide(const T* voxels, const GridView& grid) {
+VolumeStatistics statistics_of_wide(const T* voxels, const GridView& grid, const Progress& progress) {
   VolumeStatistics out;
-  const Extent extent = find_extent(voxels, grid);
+  ProgressCounter slices_done(2 * grid.size[2], progress);
+  const Extent extent = find_extent(voxels, grid, slices_done);
   out.nonfinite_voxels = extent.nonfinite;
   if (extent.lower > extent.upper) return out;
   out.lower = static_cast<float>(extent.lower);
@@ -181,11 +186,12 @@ VolumeStatistics statistics_of_wide(const T* voxels, const GridView& grid) {
   // A width too small or too large for a double has one bin.
   const double ideal = width > 0 ? (kBins - 1) / width : 0;
   const double bins_per_unit = std::isfinite(ideal) ? ideal : 0;
-  const Histograms counts = count_voxels(voxels, grid, [&](T voxel) {
+  const auto bin_of = [&](T voxel) {
     const auto v = static_cast<double>(voxel);
     if (!std::isfinite(v)) return kNoBin;
     return bins_per_unit > 0 ? static_cast<int>((v - extent.lower) * bins_per_unit) : 0;
-  });
+  };
+  const Histograms counts = count_voxels(voxels, grid, bin_of, slices_done);
   for (int b = 0; b < kBins; ++b) {
     if (!counts.values[b]) continue;
     const double value = bins_per_unit > 0 ? extent.lower + b / bins_per_unit : extent.lower;
@@ -208,10 +214,10 @@ float VolumeStatistics::percentile(double fraction) const {
   return upper;
 }
 
-VolumeStatistics compute_statistics(const GridView& grid) {
+VolumeStatistics compute_statistics(const GridView& grid, const Progress& progress) {
   return with_voxels(grid.type, grid.voxels, [&](const auto* voxels) {
-    if constexpr (sizeof(*voxels) <= 2) return statistics_of_short(voxels, grid);
-    return statistics_of_wide(voxels, grid);
+    if constexpr (sizeof(*voxels) <= 2) return statistics_of_short(voxels, grid, progress);
+    return statistics_of_wide(voxels, grid, progress);
   });
 }
 

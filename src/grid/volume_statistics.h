@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/progress.h"
 #include "grid/grid_view.h"
 
 namespace voxlume {
@@ -22,6 +23,7 @@ struct VolumeStatistics {
 };
 
 /// Exact for any size, on all threads. Comes past every voxel once, types wider than 16 bits twice.
-VolumeStatistics compute_statistics(const GridView& grid);
+/// `progress` may be empty.
+VolumeStatistics compute_statistics(const GridView& grid, const Progress& progress = {});
 
 }  // namespace voxlume

@@ -1,7 +1,7 @@
 #pragma once
-#include <functional>
 #include <vector>
 
+#include "base/progress.h"
 #include "integrator/scene_view.h"
 #include "sampling/rng.h"
 
@@ -19,9 +19,8 @@ struct ListRefinement {
 SegmentListView find_importance(const SceneView& scene, int x, int y, const ListRefinement& refinement,
                                 std::vector<ImportanceSegment>& segments);
 
-/// Takes how much of the lists is done, in (0, 1]: about ten times a second, from one thread at a time. What
-/// it throws ends them.
-using ListProgress = std::function<void(double share)>;
+/// Takes how much of the lists is done, as Progress does: about ten times a second. What it throws ends them.
+using ListProgress = Progress;
 
 /// The list of every pixel, in one pool. Owns what view() points to.
 class PixelLists {

@@ -145,18 +145,23 @@ void check_sphere(const SceneSphere& scene) {
 
 bool emits(Vec3f emission) { return max_component(emission) > 0.0f; }
 
+/// What the environment is multiplied by, or is where it has no picture.
+Vec3f emission_of(const EnvironmentDescription& environment) {
+  return Vec3f(checked_emission(environment.color, environment.intensity, "/environment"));
+}
+
 }  // namespace
 
 Lights::Lights(const std::vector<LightDescription>& lights, const EnvironmentDescription& environment,
                const EnvironmentImage* image, const ViewFrame& camera, const SceneSphere& scene,
-               EnvironmentSamples samples)
-    : samples_(samples) {
-  compile_environment(environment, image);
-  update(lights, environment, camera, scene);
+               EnvironmentSamples samples) {
+  if (image) take_image(*image);
+  compile_environment(emission_of(environment), samples);
+  update(lights, environment, camera, scene, samples);
 }
 
 void Lights::update(const std::vector<LightDescription>& lights, const EnvironmentDescription& environment,
-                    const ViewFrame& camera, const SceneSphere& scene) {
+                    const ViewFrame& camera, const SceneSphere& scene, EnvironmentSamples samples) {
   check_sphere(scene);
   if (!std::isfinite(environment.rotation_deg))
     refuse("/environment/rotation_deg", shown(environment.rotation_deg) + ", expected a finite angle");
@@ -166,6 +171,8 @@ void Lights::update(const std::vector<LightDescription>& lights, const Environme
   std::erase_if(compiled, [](const Light& light) { return !emits(light.emission); });
   const auto rects_end = std::stable_partition(
       compiled.begin(), compiled.end(), [](const Light& light) { return light.kind == LightKind::kRect; });
+  const Vec3f scale = emission_of(environment);
+  if (!(scale == environment_.scale) || samples != samples_) compile_environment(scale, samples);
   rect_count_ = static_cast<int>(rects_end - compiled.begin());
   lights_ = std::move(compiled);
   turn_environment(environment, camera);
@@ -185,20 +192,7 @@ void Lights::turn_environment(const EnvironmentDescription& d, const ViewFrame& 
   environment_.axis_z = Vec3f(z);
 }
 
-void Lights::compile_environment(const EnvironmentDescription& d, const EnvironmentImage* image) {
-  const Vec3f scale(checked_emission(d.color, d.intensity, "/environment"));
-  if (image) {
-    compile_image(*image, scale);
-    compile_choice();
-  } else {
-    environment_.constant = scale;
-    mean_environment_ = scale;
-    sampled_environment_ = samples_ == EnvironmentSamples::kExcess ? 0.0 : luminance(Vec3d(scale));
-  }
-  has_environment_ = emits(mean_environment_);
-}
-
-void Lights::compile_image(const EnvironmentImage& image, Vec3f scale) {
+void Lights::take_image(const EnvironmentImage& image) {
   const auto width = static_cast<std::size_t>(std::max(image.width, 0));
   const auto height = static_cast<std::size_t>(std::max(image.height, 0));
   if (height == 0 || width != 2 * height || image.rgb.size() != 3 * width * height)
@@ -214,17 +208,33 @@ void Lights::compile_image(const EnvironmentImage& image, Vec3f scale) {
   environment_.width = image.width;
   environment_.height = image.height;
   texels_.resize(width * height);
-  const std::vector<double> share = texel_shares(image.width, image.height);
+  for (std::size_t i = 0; i < texels_.size(); ++i)
+    texels_[i] = max(Vec3f(image.rgb[3 * i], image.rgb[3 * i + 1], image.rgb[3 * i + 2]), Vec3f(0.0f));
+}
+
+void Lights::compile_environment(Vec3f scale, EnvironmentSamples samples) {
+  mean_environment_ = texels_.empty() ? scale : mean_radiance(scale);
+  environment_.scale = scale;
+  samples_ = samples;
+  has_environment_ = emits(mean_environment_);
+  if (texels_.empty())
+    sampled_environment_ = samples == EnvironmentSamples::kExcess ? 0.0 : luminance(Vec3d(scale));
+  else
+    compile_choice();
+}
+
+Vec3f Lights::mean_radiance(Vec3f scale) const {
+  const auto width = static_cast<std::size_t>(environment_.width);
+  const std::vector<double> share = texel_shares(environment_.width, environment_.height);
   Vec3d mean(0.0);
   for (std::size_t i = 0; i < texels_.size(); ++i) {
-    Vec3f& texel = texels_[i];
-    texel = max(Vec3f(image.rgb[3 * i], image.rgb[3 * i + 1], image.rgb[3 * i + 2]) * scale, Vec3f(0.0f));
-    if (!is_finite(texel))
+    const Vec3f radiance = scale * texels_[i];
+    if (!is_finite(radiance))
       refuse("/environment/image", "found a non-finite value at column " + std::to_string(i % width) +
                                        ", row " + std::to_string(i / width) + ", expected finite radiance");
-    mean += Vec3d(texel) * share[i / width];
+    mean += Vec3d(radiance) * share[i / width];
   }
-  mean_environment_ = Vec3f(mean);
+  return Vec3f(mean);
 }
 
 void Lights::compile_choice() {
@@ -232,8 +242,10 @@ void Lights::compile_choice() {
   const double left_out = samples_ == EnvironmentSamples::kExcess ? luminance(Vec3d(mean_environment_)) : 0.0;
   const std::vector<double> share = texel_shares(environment_.width, environment_.height);
   std::vector<double> weights(texels_.size());
+  sampled_environment_ = 0;
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    weights[i] = share[i / width] * std::max(0.0, luminance(Vec3d(texels_[i])) - left_out);
+    const Vec3f radiance = environment_.scale * texels_[i];
+    weights[i] = share[i / width] * std::max(0.0, luminance(Vec3d(radiance)) - left_out);
     sampled_environment_ += weights[i];
     if (samples_ == EnvironmentSamples::kUniform) weights[i] = share[i / width];
   }

@@ -40,18 +40,19 @@ class Lights {
          const EnvironmentImage* image, const ViewFrame& camera, const SceneSphere& scene,
          EnvironmentSamples samples = EnvironmentSamples::kWhole);
 
-  /// Other lights, another camera and scene, and another turn or attachment of the environment; its picture,
-  /// colour and intensity stay what they are. Throws as the constructor does, and nothing has changed then.
+  /// Other lights, another camera, scene and environment, which keeps the picture that it has. Throws as the
+  /// constructor does, and nothing has changed then.
   void update(const std::vector<LightDescription>& lights, const EnvironmentDescription& environment,
-              const ViewFrame& camera, const SceneSphere& scene);
+              const ViewFrame& camera, const SceneSphere& scene, EnvironmentSamples samples);
 
   /// Valid while this lives, also after a move, until update().
   LightsView view() const;
 
  private:
-  void compile_environment(const EnvironmentDescription& description, const EnvironmentImage* image);
+  void take_image(const EnvironmentImage& image);
+  void compile_environment(Vec3f scale, EnvironmentSamples samples);
   void turn_environment(const EnvironmentDescription& description, const ViewFrame& camera);
-  void compile_image(const EnvironmentImage& image, Vec3f scale);
+  Vec3f mean_radiance(Vec3f scale) const;
   void compile_choice();
   void compile_pick(const SceneSphere& scene);
 

@@ -27,14 +27,14 @@ inline float texel_solid_angle(const EnvironmentView& e, int row) noexcept {
          static_cast<float>(e.width);
 }
 
-inline const Vec3f& texel_radiance(const EnvironmentView& e, int column, int row) noexcept {
-  return e.texels[static_cast<std::size_t>(row) * static_cast<std::size_t>(e.width) +
-                  static_cast<std::size_t>(column)];
+inline Vec3f texel_radiance(const EnvironmentView& e, int column, int row) noexcept {
+  return e.scale * e.texels[static_cast<std::size_t>(row) * static_cast<std::size_t>(e.width) +
+                            static_cast<std::size_t>(column)];
 }
 
 /// Radiance from `direction` (unit, toward the environment) and the density of sampling it.
 inline EnvironmentSample eval_environment(const EnvironmentView& e, Vec3f direction) noexcept {
-  if (e.width == 0) return {direction, e.constant, kUniformSpherePdf};
+  if (e.width == 0) return {direction, e.scale, kUniformSpherePdf};
   const Vec3f d(dot(direction, e.axis_x), dot(direction, e.axis_y), dot(direction, e.axis_z));
   const float u = 0.5f + 0.5f * std::numbers::inv_pi_v<float> * std::atan2(d.x, d.y);
   const float v = std::numbers::inv_pi_v<float> * std::atan2(std::sqrt(d.x * d.x + d.y * d.y), d.z);
@@ -46,7 +46,7 @@ inline EnvironmentSample eval_environment(const EnvironmentView& e, Vec3f direct
 
 /// Draws a direction in proportion to the luminance of the radiance.
 inline EnvironmentSample sample_environment(const EnvironmentView& e, float u0, float u1) noexcept {
-  if (e.width == 0) return {uniform_sphere(u0, u1), e.constant, kUniformSpherePdf};
+  if (e.width == 0) return {uniform_sphere(u0, u1), e.scale, kUniformSpherePdf};
   const TexelSample t = sample_texel(e.choice, u0, u1);
   const bool south = 2 * t.row >= e.height;
   const int from_pole = south ? e.height - 1 - t.row : t.row;

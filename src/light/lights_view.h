@@ -24,9 +24,9 @@ struct Light {
 /// along +axis_y, u = 0.75 along +axis_x.
 struct EnvironmentView {
   Vec3f axis_x, axis_y, axis_z;        ///< LPS directions of the environment's own axes, orthonormal
-  Vec3f constant;                      ///< radiance when there is no picture
+  Vec3f scale;                         ///< radiance; with a picture, what its texels are multiplied by
   int width = 0, height = 0;           ///< 0: no picture
-  const Vec3f* texels = nullptr;       ///< radiance, row after row
+  const Vec3f* texels = nullptr;       ///< as the picture has them, row after row
   Distribution2DView choice;           ///< by luminance x solid angle
   const float* cap_versine = nullptr;  ///< [row] = 1 - cos(pi row / height), height + 1 of them
 };

@@ -16,6 +16,10 @@ struct FrameCost {
   double per_pixel_s = 0;   ///< denoising, developing, encoding
 };
 
+/// Samples per pixel from which on a still picture, full_width wide, looks better than a moving one that a
+/// denoiser made of so many frames, the last of that size.
+int first_still_spp(const FrameSize& moving, int frames, int full_width);
+
 /// Chooses the size of frames so that each takes about as long as it may, from what those before took. Steps
 /// are coarse and taken with hesitation, since a denoiser forgets when the size changes.
 class FrameSizeChoice {

@@ -15,22 +15,10 @@ namespace {
 
 /// Passes over what is important, and their looks, while the view moves: its lists are made for every frame.
 constexpr int kMovingRayPasses = 4;
-/// What a first still picture may take before it is shown [s].
+/// What the first pass of a still picture may take [s].
 constexpr double kFirstStill_s = 0.5;
-/// As many samples make the standard error known; the render loop looks at it from there on, too.
-constexpr int kNoiseFrom = 8;
 /// A still picture is shown again after so many times what showing it takes, but not more often than this.
 constexpr double kShowShare = 4, kShowEvery_s = 0.15;
-
-double seconds(std::chrono::steady_clock::duration d) { return std::chrono::duration<double>(d).count(); }
-
-/// Calls `work` and gives the seconds it took.
-template <class Work>
-double timed(Work&& work) {
-  const auto begin = std::chrono::steady_clock::now();
-  work();
-  return seconds(std::chrono::steady_clock::now() - begin);
-}
 
 /// The scene without what the film does not depend on.
 SceneDescription scene_of_film(SceneDescription scene) {
@@ -63,36 +51,6 @@ void prepare(std::optional<RenderState>& state, int width, int height, FilmLayer
     state.emplace(RenderState{Film(width, height, layers), {}, 0});
 }
 
-std::vector<float> depths(const Film& film) {
-  std::vector<float> depth_mm(film.pixel_count());
-  for (int y = 0, i = 0; y < film.height(); ++y)
-    for (int x = 0; x < film.width(); ++x, ++i)
-      depth_mm[static_cast<std::size_t>(i)] = static_cast<float>(film.depth_mm(x, y));
-  return depth_mm;
-}
-
-/// Columns of `from` left of `end` in place of those of `to`, of the same size.
-void copy_columns(const Image& from, int end, Image& to) {
-  for (int y = 0; y < to.height; ++y) std::copy_n(from.pixel(0, y), 4 * end, to.pixel(0, y));
-}
-
-CameraView camera_lps(const CompiledScene& scene) {
-  CameraView camera = scene.view().camera;
-  const Double3& o = scene.origin_mm();
-  const Vec3f origin(Vec3d(o[0], o[1], o[2]));
-  camera.eye_mm += origin;
-  camera.target_mm += origin;
-  return camera;
-}
-
-LiveLimit greatest(const LiveFrame& f) {
-  const double most = std::max({f.compile_s, f.trace_s, f.denoise_s, f.develop_s});
-  if (f.done) return LiveLimit::kNothing;
-  if (f.trace_s == most) return LiveLimit::kTracing;
-  if (f.denoise_s == most) return LiveLimit::kDenoising;
-  return f.compile_s == most ? LiveLimit::kCompiling : LiveLimit::kDeveloping;
-}
-
 }  // namespace
 
 void LiveSession::Loop::run() {
@@ -122,7 +80,7 @@ LiveSession::Loop::Step LiveSession::Loop::wait() {
     take_wishes();
     const bool draws = wishes.watched && scene_ && !failed_;
     if (draws && !at_rest() && !still_) return Step::kMove;
-    const bool shown = still_ && shown_ != Shown::kNot;
+    const bool shown = still_ && !on_screen_ && shown_ != Shown::kNot;
     if (draws && !shown) return Step::kRefine;
     if (wishes.watched && !wishes.asides.empty() && (shown || !scene_ || failed_)) return Step::kAside;
     const bool refines = !done_ && !wishes.yielding;
@@ -145,27 +103,30 @@ void LiveSession::Loop::take_wishes() {
   }
   if (std::exchange(wishes.split_changed, false)) {
     split_ = wishes.split;
-    edited_ = Clock::now();
-    shown_ = Shown::kNot;
+    note_edit();
   }
+}
+
+void LiveSession::Loop::note_edit() {
+  hurried_ = !at_rest();
+  edited_ = Clock::now();
+  shown_ = Shown::kNot;
 }
 
 void LiveSession::Loop::take_scene(SceneDescription scene) {
   scene.animation.reset();
-  framed_ = edited_ = Clock::now();
-  shown_ = Shown::kNot;
+  note_edit();
+  framed_ = edited_;
   done_ = false;
   const bool same_film = scene_ && !failed_ && scene_of_film(*scene_) == scene_of_film(scene);
   if (!scene_ || !same_matter(*scene_, scene)) forgets_ = true;
   if (!scene_ || scene_->render.denoise != scene.render.denoise) denoised_.reset();
   scene_ = std::move(scene);
   failed_ = still_compiled_ = false;
-  if (same_film && still_) {
-    // Its samples will do, if they have what a new denoiser needs.
-    if (!(still_->film.layers() == layers())) prepare(still_, scene_->image.width, scene_->image.height, layers());
-    return;
-  }
+  if (same_film && still_) return;
   still_.reset();
+  on_screen_.reset();
+  first_still_spp_ = 0;
 }
 
 LiveSession::Loop::Clock::duration LiveSession::Loop::rest() const {
@@ -186,11 +147,6 @@ void LiveSession::Loop::attempt(Work&& work) {
   }
 }
 
-FilmLayers LiveSession::Loop::layers() const {
-  FilmLayers out = denoiser_layers(scene_->render.denoise);
-  out.depth = true;
-  return out;
-}
 
 RenderStatus LiveSession::Loop::trace(RenderState& state, const StopRule& stop,
                                       const std::atomic<bool>* cancel, bool tells) const {
@@ -234,13 +190,15 @@ void LiveSession::Loop::move() {
   if (scene.visibility) scene.visibility->ray_passes = std::min(scene.visibility->ray_passes, kMovingRayPasses);
   spent_ = {};
   still_compiled_ = false;
-  spent_.compile_s = timed([&] { live_.session_.compile(std::move(scene)); });
-  prepare(moving_, size.width, size.height, layers());
+  spent_.compile_s = seconds_of([&] { live_.session_.compile(std::move(scene)); });
+  prepare(moving_, size.width, size.height, kLayers);
   StopRule stop;
   stop.spp = size.spp;
-  spent_.trace_s = timed([&] { trace(*moving_, stop, nullptr, false); });
-  const double rest_s = timed([&] { publish(*moving_, Shown::kQuickly); });
-  sizes_.learn(size, spent_.compile_s, spent_.trace_s, rest_s);
+  spent_.trace_s = seconds_of([&] { trace(*moving_, stop, nullptr, false); });
+  const LiveFrame spent = spent_;  // publishing ends its account
+  const double rest_s = seconds_of([&] { publish(*moving_, Shown::kQuickly); });
+  first_still_spp_ = first_still_spp(size, history_, scene_->image.width);
+  sizes_.learn(size, spent.compile_s, spent.trace_s, rest_s);
 }
 
 void LiveSession::Loop::compile_still() {
@@ -248,7 +206,7 @@ void LiveSession::Loop::compile_still() {
   const auto give_way = [this](double) {
     if (live_.cancel_) throw Cancelled();
   };
-  spent_.compile_s += timed([&] { live_.session_.compile(*scene_, give_way); });
+  spent_.compile_s += seconds_of([&] { live_.session_.compile(*scene_, give_way); });
   still_compiled_ = true;
 }
 
@@ -260,15 +218,21 @@ StopRule LiveSession::Loop::still_stop() const {
 bool LiveSession::Loop::still_done() const {
   if (!still_) return false;
   const StopRule stop = still_stop();
-  const int spp = static_cast<int>(still_->film.sample_count(0, 0));
+  const int spp = least_samples(*still_);
   return (stop.spp && spp >= *stop.spp) || (stop.seconds && still_->elapsed_s >= *stop.seconds) ||
          (stop.noise && spp >= kNoiseFrom && still_->film.noise() <= *stop.noise);
+}
+
+/// Whether the still picture has samples, and enough of them to take the place of a moving one.
+bool LiveSession::Loop::still_is_best() const {
+  const int spp = least_samples(*still_);
+  return spp > 0 && (done_ || spp >= first_still_spp_);
 }
 
 /// The count of samples that the next pass ends at; as render_picture's passes do, so that its rules are
 /// looked at after the same ones.
 int LiveSession::Loop::next_still_spp() const {
-  const auto at = static_cast<int>(still_->film.sample_count(0, 0));
+  const int at = least_samples(*still_);
   if (at >= 32) return (at / 32 + 1) * 32;
   int end = 1;
   while (end <= at) end *= 2;
@@ -284,86 +248,26 @@ void LiveSession::Loop::refine() {
   } catch (const Cancelled&) {
     return;
   }
-  if (!still_) prepare(still_, scene_->image.width, scene_->image.height, layers());
+  if (!still_) prepare(still_, scene_->image.width, scene_->image.height, kLayers);
   done_ = still_done();
   const bool due = shown_ == Shown::kNot || (shown_ == Shown::kQuickly && at_rest());
-  if (due && still_->film.sample_count(0, 0) > 0) {  // samples that an edit has not touched
-    publish(*still_, at_rest() ? Shown::kWell : Shown::kQuickly);
+  if (due && still_is_best()) {  // samples that an edit has not touched
+    publish(*still_, hurried_ && !at_rest() ? Shown::kQuickly : Shown::kWell);
     return;
   }
+  if (shown_ == Shown::kNot && on_screen_) show_again();
   if (done_) return;
   StopRule stop = still_stop();
   stop.spp = std::min(next_still_spp(), stop.spp.value_or(1 << 30));
   denoised_.reset();
   RenderStatus status{};
-  spent_.trace_s += timed([&] { status = trace(*still_, stop, &live_.cancel_, true); });
+  spent_.trace_s += seconds_of([&] { status = trace(*still_, stop, &live_.cancel_, true); });
   if (status == RenderStatus::kCancelled) return;
   done_ = still_done();
+  if (!still_is_best()) return;
   const double since_s = seconds(Clock::now() - framed_);
-  if (shown_ == Shown::kNot || done_ || since_s > std::max(kShowEvery_s, kShowShare * show_s_))
+  if (shown_ == Shown::kNot || on_screen_ || done_ || since_s > std::max(kShowEvery_s, kShowShare * show_s_))
     publish(*still_, Shown::kWell);
-}
-
-/// The picture of `state`, denoised; that of last time where nothing but its development has changed.
-std::shared_ptr<const Image> LiveSession::Loop::picture(const RenderState& state, Shown how) {
-  const std::string& method = scene_->render.denoise;
-  if (method == "none") {
-    denoiser_.reset();
-  } else if (!denoiser_ || denoiser_name_ != method) {
-    denoiser_.emplace(method);
-  }
-  denoiser_name_ = method;
-  const bool still = still_ && &state == &*still_;
-  if (still && how == Shown::kQuickly && denoised_) return denoised_;
-  // The samples of a still picture are those of its last showing and more, not another frame.
-  if (denoiser_ && (forgets_ || still)) denoiser_->forget();
-  forgets_ = still;
-  auto out = std::make_shared<const Image>(
-      finish_picture(state, live_.session_.compiled(), {}, {}, denoiser_ ? &*denoiser_ : nullptr));
-  denoised_ = still ? out : nullptr;
-  return out;
-}
-
-Image8 LiveSession::Loop::develop(const RenderState& state, const Image& linear) const {
-  const bool transparent = live_.session_.compiled().view().background == BackgroundKind::kTransparent;
-  const ToneMap tone{scene_->image.exposure_ev, scene_->image.tone_curve, transparent, false};
-  if (!split_ || !denoiser_) return tone_map(linear, tone);
-  Image shown = linear;
-  copy_columns(image_from_film(state.film, {}, transparent),
-               std::clamp(static_cast<int>(*split_ * shown.width), 0, shown.width), shown);
-  return tone_map(shown, tone);
-}
-
-void LiveSession::Loop::publish(const RenderState& state, Shown how) {
-  const Clock::time_point begin = Clock::now();
-  auto frame = std::make_shared<LiveFrame>(spent_);
-  try {
-    // A large picture takes its time; one in a hurry is shown whatever comes.
-    std::optional<CancelScope> scope;
-    if (how == Shown::kWell) scope.emplace(live_.cancel_);
-    frame->denoise_s = timed([&] { frame->linear = picture(state, how); });
-    frame->develop_s = timed([&] { frame->picture = develop(state, *frame->linear); });
-  } catch (const Cancelled&) {
-    forgets_ = true;
-    return;
-  }
-  frame->number = ++frames_;
-  frame->revision = revision_;
-  frame->moving = how == Shown::kQuickly;
-  frame->done = !frame->moving && done_;
-  frame->depth_mm = depths(state.film);
-  frame->camera = camera_lps(live_.session_.compiled());
-  frame->width = scene_->image.width;
-  frame->height = scene_->image.height;
-  frame->spp = static_cast<double>(state.film.total_samples()) / static_cast<double>(state.film.pixel_count());
-  if (!frame->moving && frame->spp >= kNoiseFrom) frame->noise = state.film.noise();
-  frame->limit = greatest(*frame);
-  frame->frame_s = seconds(Clock::now() - framed_);
-  shown_ = how;
-  if (live_.listener_.frame) live_.listener_.frame(std::move(frame));
-  framed_ = Clock::now();
-  show_s_ = seconds(framed_ - begin);
-  spent_ = {};
 }
 
 LiveSession::Aside LiveSession::Loop::next_aside() {

@@ -1,6 +1,8 @@
 #pragma once
 #include <chrono>
+#include <memory>
 #include <optional>
+#include <utility>
 
 #include "render/frame_size.h"
 #include "render/live_session.h"
@@ -18,6 +20,10 @@ class LiveSession::Loop {
 
  private:
   using Clock = std::chrono::steady_clock;
+  /// All that any denoiser needs, so that another one needs no new samples.
+  static constexpr FilmLayers kLayers{.depth = true, .normal = true, .albedo = true, .classes = true};
+  /// As many samples make the standard error known; the render loop looks at it from there on, too.
+  static constexpr int kNoiseFrom = 8;
 
   /// What the next step is.
   enum class Step { kEnd, kMove, kRefine, kAside };
@@ -26,6 +32,7 @@ class LiveSession::Loop {
 
   Step wait();
   void take_wishes();
+  void note_edit();
   void take_scene(SceneDescription scene);
   bool at_rest() const;
   Clock::duration rest() const;
@@ -38,17 +45,30 @@ class LiveSession::Loop {
   void draw(Aside aside);
   void give_up_asides();
 
-  FilmLayers layers() const;
   void compile_still();
   StopRule still_stop() const;
   bool still_done() const;
+  bool still_is_best() const;
   int next_still_spp() const;
   RenderStatus trace(RenderState& state, const StopRule& stop, const std::atomic<bool>* cancel,
                      bool tells) const;
   RenderProgress overall(const RenderProgress& pass) const;
+
+  // From samples to the screen (live_publish.cpp).
   void publish(const RenderState& state, Shown how);
-  std::shared_ptr<const Image> picture(const RenderState& state, Shown how);
+  void show_again();
+  std::shared_ptr<const Image> picture(const RenderState& state);
   Image8 develop(const RenderState& state, const Image& linear) const;
+  void hand_out(std::shared_ptr<LiveFrame> frame, Shown how);
+
+  static double seconds(Clock::duration d) { return std::chrono::duration<double>(d).count(); }
+  /// Calls `work` and gives the seconds it took.
+  template <class Work>
+  static double seconds_of(Work&& work) {
+    const Clock::time_point begin = Clock::now();
+    work();
+    return seconds(Clock::now() - begin);
+  }
 
   LiveSession& live_;
   std::optional<SceneDescription> scene_;  ///< the last taken
@@ -57,12 +77,17 @@ class LiveSession::Loop {
   bool failed_ = false;  ///< scene_ cannot be drawn
   bool done_ = false;    ///< a stop rule of scene_ is reached
   Shown shown_ = Shown::kNot;
+  bool hurried_ = false;  ///< the last wish came before the one before it was at rest
   std::optional<RenderState> moving_, still_;
+  std::shared_ptr<const LiveFrame> on_screen_;  ///< the picture of moving_, until one of still_ takes its place
+  int first_still_spp_ = 0;                     ///< from which on it does
   bool still_compiled_ = false;  ///< what is compiled is scene_ at its full size
   std::shared_ptr<const Image> denoised_;  ///< of still_ as it is, or null
   std::optional<PictureDenoiser> denoiser_;
   std::string denoiser_name_;
   bool forgets_ = true;  ///< the denoiser's history is of other matter
+  int history_ = 0;      ///< frames in it, of that size
+  std::pair<int, int> history_size_{};
   FrameSizeChoice sizes_;
   Clock::time_point edited_{}, framed_{};  ///< when the last wish was taken; the last frame or such a wish
   LiveFrame spent_;                        ///< seconds spent on the frame at work

@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/progress.h"
 #include "camera/camera.h"
 #include "render/session.h"
 #include "voxlume/image.h"
@@ -26,6 +27,7 @@ struct LiveFrame {
   std::uint64_t number = 0;    ///< from 1, without gaps
   std::uint64_t revision = 0;  ///< of the newest edit that it shows
   bool moving = false;         ///< drawn for speed, perhaps smaller than asked for
+  bool hurried = false;        ///< still, but edits come one after the other; it comes again after the last
   bool done = false;           ///< a stop rule of the scene is reached; the next frame follows an edit
   Image8 picture;              ///< developed, of the size it was traced at; left of the split without denoiser
   std::shared_ptr<const Image> linear;  ///< what was developed, denoised; with metadata where not moving
@@ -49,6 +51,8 @@ struct LiveListener {
   std::function<void(std::uint64_t revision, const std::string& message)> trouble;
   /// A still picture gets better; a few times a second.
   std::function<void(const RenderProgress&)> progress;
+  /// How much of the volume the session has looked over, while it is made; by several threads in turn.
+  Progress preparing;
 };
 
 struct LiveOptions {

@@ -73,6 +73,12 @@ Image finish_picture(const RenderState& state, const CompiledScene& scene,
     denoiser->apply(state.film, scene, image);
     image.metadata["voxlume:denoiser"] = description.render.denoise;
   }
+  describe_picture(scene, frame, image);
+  return image;
+}
+
+void describe_picture(const CompiledScene& scene, const std::optional<FrameStamp>& frame, Image& image) {
+  const SceneDescription& description = scene.description();
   image.metadata["voxlume:scene"] = anonymous_scene(description);
   image.metadata["voxlume:seed"] = std::to_string(description.render.seed);
   image.metadata["voxlume:version"] = VOXLUME_VERSION;
@@ -81,7 +87,6 @@ Image finish_picture(const RenderState& state, const CompiledScene& scene,
     image.metadata["voxlume:frame"] = std::to_string(frame->number);
     image.metadata["voxlume:time_s"] = nlohmann::json(frame->time_s).dump();
   }
-  return image;
 }
 
 bool is_exr_name(const std::filesystem::path& path) { return lower_extension(path) == ".exr"; }

@@ -46,6 +46,9 @@ Image finish_picture(const RenderState& state, const CompiledScene& scene,
                      const std::vector<std::string>& aovs, const std::optional<FrameStamp>& frame = {},
                      PictureDenoiser* denoiser = nullptr);
 
+/// The metadata that finish_picture gives a picture, anew: of a scene that differs in how it is developed.
+void describe_picture(const CompiledScene& scene, const std::optional<FrameStamp>& frame, Image& image);
+
 /// Writes a finished picture as PNG (developed as the scene says) or EXR, by the extension of `path`.
 /// Throws Error kFileNotFound, kInternal.
 void save_picture(const Image& picture, const SceneDescription& scene, const std::filesystem::path& path);

@@ -229,6 +229,13 @@ class Loop {
 
 }  // namespace
 
+int least_samples(const RenderState& state) {
+  std::uint32_t least = std::numeric_limits<std::uint32_t>::max();
+  for (const TileRect& tile : make_tiles(state.film.width(), state.film.height(), state.tile_size))
+    least = std::min(least, state.film.sample_count(tile.x0, tile.y0));
+  return static_cast<int>(least);
+}
+
 std::vector<TileRect> make_tiles(int width, int height, int tile_size) {
   std::vector<TileRect> tiles;
   for (int y = 0; y < height; y += tile_size) {

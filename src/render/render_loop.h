@@ -27,6 +27,9 @@ struct RenderState {
   int tile_size = 32;    ///< edge of a tile in pixels, 1..65536
 };
 
+/// Samples of the pixels that have fewest: an interrupted pass leaves some with more.
+int least_samples(const RenderState& state);
+
 struct RenderLoopOptions {
   StopRule stop;
   /// Samples that the first run of a tile takes at once, at most: those of a pixel are then divided into

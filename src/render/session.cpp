@@ -7,9 +7,9 @@
 
 namespace voxlume {
 
-Session::Session(const SceneDescription& scene, Volume volume)
+Session::Session(const SceneDescription& scene, Volume volume, const Progress& progress)
     : volume_(std::move(volume)),
-      statistics_(compute_statistics(make_grid_view(volume_))),
+      statistics_(compute_statistics(make_grid_view(volume_), progress)),
       volume_digest_(volume_digest(volume_, statistics_)),
       description_(resolve(scene, volume_, statistics_)) {}
 

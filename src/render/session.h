@@ -2,6 +2,7 @@
 #include <optional>
 #include <string>
 
+#include "base/progress.h"
 #include "grid/volume_statistics.h"
 #include "scene/compile.h"
 #include "voxlume/scene.h"
@@ -13,8 +14,9 @@ namespace voxlume {
 /// once, and of a picture after the first only what changed is compiled.
 class Session {
  public:
-  /// Takes the volume's statistics and resolves `scene`. Throws Error, those of resolve().
-  Session(const SceneDescription& scene, Volume volume);
+  /// Takes the volume's statistics, of which `progress` hears, and resolves `scene`. Throws Error, those of
+  /// resolve().
+  Session(const SceneDescription& scene, Volume volume, const Progress& progress = {});
 
   const Volume& volume() const { return volume_; }
   const VolumeStatistics& statistics() const { return statistics_; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <tuple>
 
 #include "camera/camera.h"
@@ -69,6 +70,18 @@ void check_depth(float mu_t, const Volume& volume) {
 auto accelerator_fields(const RenderDescription& render) {
   return std::tie(render.accelerator, render.macrocell_voxels, render.hierarchy_rule, render.lookup_cost,
                   render.hierarchy_thresholds, render.transmittance, render.free_flight);
+}
+
+/// When a file was written last; the least of times where it is not there.
+std::filesystem::file_time_type file_time(const std::string& path) {
+  std::error_code failed;
+  return std::filesystem::last_write_time(path, failed);
+}
+
+/// Whether a file is there that is not the one of that time.
+bool is_other_file(const std::string& path, std::filesystem::file_time_type time) {
+  const auto now = file_time(path);
+  return now != time && now != std::filesystem::file_time_type::min();
 }
 
 LightSampling light_sampling(const std::string& name) {
@@ -187,20 +200,19 @@ void CompiledScene::compile_lights(const SceneDescription& local, bool everythin
                                             local.visibility->lights != VisibilityLights::kOff);
   const LightSampling sampling =
       other_shadows ? LightSampling::kLight : light_sampling(local.render.light_sampling);
-  // The tables of the environment's picture are what takes long.
-  const bool same_tables = !everything && sampling == view_.light_sampling &&
-                           local.render.integrator == description_.render.integrator &&
-                           environment.image == description_.environment->image &&
-                           environment.color == description_.environment->color &&
-                           environment.intensity == description_.environment->intensity;
-  if (same_tables) {
-    lights_->update(*local.lights, environment, view_frame(camera), sphere);
+  const EnvironmentSamples samples = environment_samples(local.render, sampling);
+  const bool same_picture =
+      !everything && environment.image == description_.environment->image &&
+      (environment == *description_.environment || !is_other_file(environment.image, environment_time_));
+  if (same_picture) {
+    lights_->update(*local.lights, environment, view_frame(camera), sphere, samples);
   } else {
     std::optional<EnvironmentImage> picture;
+    const std::filesystem::file_time_type time = file_time(environment.image);
     if (!environment.image.empty()) picture = read_environment(environment.image);
-    const auto samples = environment_samples(local.render, sampling);
     lights_ = Lights(*local.lights, environment, picture ? &*picture : nullptr, view_frame(camera), sphere,
                      samples);
+    environment_time_ = time;
   }
   view_.light_sampling = sampling;
   view_.lights = lights_->view();

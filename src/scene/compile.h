@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <span>
@@ -38,10 +39,11 @@ class CompiledScene {
 
   /// Compiles another description of the same volume, and of it only what differs: a camera, lights or a clip
   /// box take microseconds, a transfer function the majorants that it changes; value ranges are built again
-  /// for another accelerator only. `description` is resolved; its volume counts as the one at hand. Nothing
-  /// may be tracing, and copies of view() are out of date afterwards. Throws as the constructor does; the
-  /// scene is then what it was, but for warnings(). Where `progress` has thrown, the scene is the new one without
-  /// its lists: it must not be traced before it is updated again, to any scene.
+  /// for another accelerator only, and the environment's picture is read again where the environment changes and
+  /// its path or file time does. `description` is resolved; its volume counts as the one at hand. Nothing may be
+  /// tracing, and copies of view() are out of date afterwards. Throws as the constructor does; the scene is then
+  /// what it was, but for warnings(). Where `progress` has thrown, the scene is the new one without its lists: it
+  /// must not be traced before it is updated again, to any scene.
   void update(SceneDescription description, const ListProgress& progress = {});
 
   const SceneView& view() const { return view_; }
@@ -93,6 +95,7 @@ class CompiledScene {
   std::optional<Classifier> classifier_;
   std::optional<Accelerator> accelerator_;
   std::optional<Lights> lights_;
+  std::filesystem::file_time_type environment_time_{};  ///< of the environment's picture, when it was read
   std::optional<TransferFunction> ramp_;  ///< of an illustration
   std::optional<ImportanceField> importance_;
   std::optional<PixelLists> pixel_lists_;

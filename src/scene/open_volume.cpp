@@ -30,7 +30,7 @@ std::string number_text(double x) {
   return text.str();
 }
 
-Volume read(const VolumeDescription& description) {
+Volume read(const VolumeDescription& description, const Progress& progress) {
   if (description.path == kPhantomPath) {
     Volume phantom = make_head_phantom();
     if (description.spacing_mm) phantom.spacing_mm = *description.spacing_mm;
@@ -39,17 +39,18 @@ Volume read(const VolumeDescription& description) {
   ReadOptions options;
   if (!description.raw.empty()) options.raw = parse_raw_spec(description.raw);
   options.spacing_mm = description.spacing_mm;
+  options.progress = progress;
   return read_volume(description.path, options);
 }
 
 }  // namespace
 
-Volume open_volume(const VolumeDescription& description) {
+Volume open_volume(const VolumeDescription& description, const Progress& progress) {
   if (description.path.empty()) {
     throw Error(ErrorCode::kBadParameter, "/volume", "missing key \"path\": the scene names no volume");
   }
   if (description.direction) check_orthonormal(*description.direction);
-  Volume volume = read(description);
+  Volume volume = read(description, progress);
   if (description.origin_mm) volume.origin_mm = *description.origin_mm;
   if (description.direction) volume.direction = *description.direction;
   for (const double spacing : volume.spacing_mm) {

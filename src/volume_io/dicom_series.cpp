@@ -64,10 +64,10 @@ class DicomReader : public VolumeReader {
   DicomReader(const std::filesystem::path& where, std::vector<std::filesystem::path> paths)
       : where_(where), paths_(std::move(paths)) {}
 
-  VolumeHeader read_header() override {
+  VolumeHeader read_header(const Progress& progress) override {
     VolumeHeader header;
     Volume& volume = header.volume;
-    files_ = read_tags(volume);
+    files_ = read_tags(volume, progress);
     group_ = choose_series(where_, files_, volume.warnings);
     const DicomFile& first = first_file();
     volume.modality = first.modality;
@@ -80,7 +80,7 @@ class DicomReader : public VolumeReader {
     return header;
   }
 
-  void read_voxels(void* voxels) override {
+  void read_voxels(void* voxels, const Progress& progress) override {
     auto* out = static_cast<unsigned char*>(voxels);
     const std::uint64_t slice_bytes = slice_values_ * voxel_bytes(type_);
     std::vector<std::size_t> present;
@@ -93,6 +93,7 @@ class DicomReader : public VolumeReader {
     });
     std::size_t open_file = SliceOrder::kMissing;
     std::vector<char> pixels;
+    ProgressCounter slices(static_cast<std::int64_t>(present.size()), progress);
     for (const std::size_t s : present) {
       const FrameRef ref = group_.frames[order_.slots[s]];
       const DicomFile& file = files_[ref.file];
@@ -102,6 +103,7 @@ class DicomReader : public VolumeReader {
       const DicomFrame& frame = file.frames[ref.frame];
       rescale_voxels(pixels.data() + ref.frame * stored_bytes, stored_type(file.path, file),
                      out + s * slice_bytes, type_, slice_values_, frame.slope, frame.intercept);
+      slices.add();
     }
     fill_missing(out, slice_bytes);
   }
@@ -109,10 +111,12 @@ class DicomReader : public VolumeReader {
  private:
   const DicomFile& first_file() const { return files_[group_.frames[0].file]; }
 
-  std::vector<DicomFile> read_tags(Volume& volume) const {
+  std::vector<DicomFile> read_tags(Volume& volume, const Progress& progress) const {
     std::vector<DicomFile> files;
     std::size_t unreadable = 0;
+    ProgressCounter seen(static_cast<std::int64_t>(paths_.size()), progress);
     for (const std::filesystem::path& path : paths_) {
+      seen.add();
       if (!looks_like_dicom(path)) continue;
       if (auto file = read_dicom_tags(path)) {
         files.push_back(std::move(*file));

@@ -11,11 +11,13 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <mutex>
 #include <utility>
 
 #include "base/fail.h"
+#include "base/progress.h"
 #include "volume_io/child_limits.h"
 #include "volume_io/child_watch.h"
 #include "volume_io/memory_limit.h"
@@ -55,6 +57,11 @@ void write_all(int to, std::string_view text) {
   std::string line;
   try {
     enter_child_limits(path);
+    ReadOptions told = options;
+    told.progress = [&, last = 0](double share) mutable {
+      const int percent = static_cast<int>(100 * share);
+      if (std::exchange(last, percent) != percent) write_all(result, fmt::format("{}\n", percent));
+    };
     const auto allocate = [&](std::uint64_t bytes, std::uint64_t working_bytes) {
       allow_voxel_memory(bytes, working_bytes);
       if (ftruncate(voxel_file, static_cast<off_t>(bytes)) != 0) {
@@ -64,7 +71,7 @@ void write_all(int to, std::string_view text) {
       if (start == MAP_FAILED) fail(ErrorCode::kOutOfMemory, path, fmt::format("cannot map {} bytes", bytes));
       return std::shared_ptr<void>(start, [](void*) {});
     };
-    line = encode_volume(read_staged(path, options, allocate));
+    line = encode_volume(read_staged(path, told, allocate));
   } catch (const Error& error) {
     line = encode_error(error);
   } catch (...) {
@@ -81,8 +88,15 @@ struct ChildOutcome {
   bool deadlocked = false;  ///< on a lock another thread held when it was forked: worth another try
 };
 
+/// Takes the lines off the front of what the child says: how many percent it has read. What follows them, in one
+/// line without an end, is its result.
+void take_percents(std::string& said, const Progress& progress) {
+  for (std::size_t end; (end = said.find('\n')) != std::string::npos; said.erase(0, end + 1))
+    if (progress) progress(0.01 * std::atoi(said.c_str()));
+}
+
 /// Reads what the child says until it closes the pipe, then waits for its end.
-ChildOutcome await_child(pid_t child, int result, std::chrono::seconds limit) {
+ChildOutcome await_child(pid_t child, int result, std::chrono::seconds limit, const Progress& progress) {
   constexpr int kWatchMilliseconds = 1000;
   ChildOutcome outcome;
   DeadlockWatch watch(child);
@@ -103,6 +117,7 @@ ChildOutcome await_child(pid_t child, int result, std::chrono::seconds limit) {
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) break;
     outcome.line.append(text, static_cast<std::size_t>(count));
+    take_percents(outcome.line, progress);
   }
   while (waitpid(child, &outcome.status, 0) < 0 && errno == EINTR) {
   }
@@ -153,7 +168,7 @@ ChildOutcome read_in_child(const std::filesystem::path& path, const ReadOptions&
   if (child < 0) {
     fail(ErrorCode::kInternal, path, fmt::format("cannot start the reader: {}", std::strerror(reason)));
   }
-  return await_child(child, from_child.get(), limit);
+  return await_child(child, from_child.get(), limit, options.progress);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ class Hdf5Reader : public VolumeReader {
  public:
   explicit Hdf5Reader(const std::filesystem::path& path) : path_(path), io_(itk::HDF5ImageIO::New()) {}
 
-  VolumeHeader read_header() override {
+  VolumeHeader read_header(const Progress&) override {
     check_hdf5_is_one_file(path_);
     VolumeHeader header = read_itk_header(*io_, path_);
     header.volume.format = format_name(FileFormat::kHdf5);
@@ -22,7 +22,7 @@ class Hdf5Reader : public VolumeReader {
     return header;
   }
 
-  void read_voxels(void* voxels) override { read_itk_voxels(*io_, path_, voxels, stored_bytes_); }
+  void read_voxels(void* voxels, const Progress&) override { read_itk_voxels(*io_, path_, voxels, stored_bytes_); }
 
  private:
   std::filesystem::path path_;

@@ -35,7 +35,7 @@ class MetaReader : public VolumeReader {
  public:
   explicit MetaReader(const std::filesystem::path& path) : path_(path), io_(itk::MetaImageIO::New()) {}
 
-  VolumeHeader read_header() override {
+  VolumeHeader read_header(const Progress&) override {
     VolumeHeader header = read_itk_header(*io_, path_);
     header.volume.format = format_name(FileFormat::kMetaImage);
     if (io_->GetMetaImagePointer()->Modality() == MET_MOD_CT) header.volume.modality = "CT";
@@ -67,17 +67,17 @@ class MetaReader : public VolumeReader {
     return VoxelsInFile{data_path_, offset_};
   }
 
-  void read_voxels(void* voxels) override {
+  void read_voxels(void* voxels, const Progress& progress) override {
     const MetaImage& meta = *io_->GetMetaImagePointer();
     if (!meta.BinaryData()) {
       if (wide_)
         fail(ErrorCode::kUnsupported, path_, "64-bit integers written as text; write them as binary first");
-      return read_text(data_path_, offset_, type_, voxels, count_);
+      return read_text(data_path_, offset_, type_, voxels, count_, progress);
     }
     if (meta.CompressedData()) {
-      read_deflated(data_path_, offset_, 0, voxels, count_ * value_bytes_);
+      read_deflated(data_path_, offset_, 0, voxels, count_ * value_bytes_, progress);
     } else {
-      read_plain(data_path_, offset_, voxels, count_ * value_bytes_);
+      read_plain(data_path_, offset_, voxels, count_ * value_bytes_, progress);
     }
     if (meta.BinaryDataByteOrderMSB()) swap_bytes(voxels, count_, value_bytes_);
   }

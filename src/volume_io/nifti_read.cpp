@@ -59,7 +59,7 @@ class NiftiReader : public VolumeReader {
  public:
   explicit NiftiReader(const std::filesystem::path& path) : path_(path) {}
 
-  VolumeHeader read_header() override {
+  VolumeHeader read_header(const Progress&) override {
     deflated_ = starts_with_gzip(path_);
     nifti_ = read_nifti_header(path_, deflated_);
     VolumeHeader header;
@@ -80,16 +80,16 @@ class NiftiReader : public VolumeReader {
     return VoxelsInFile{path_, static_cast<std::uint64_t>(nifti_.vox_offset)};
   }
 
-  void read_voxels(void* voxels) override {
+  void read_voxels(void* voxels, const Progress& progress) override {
     // Stored values narrower than the result are put at its end and widened from the front.
     const std::uint64_t bytes = count_ * stored_bytes_;
     const std::uint64_t room = scaled_ ? count_ * voxel_bytes(type_) : bytes;
     void* stored = static_cast<unsigned char*>(voxels) + (room - bytes);
     const auto offset = static_cast<std::uint64_t>(nifti_.vox_offset);
     if (deflated_) {
-      read_deflated(path_, 0, offset, stored, bytes);
+      read_deflated(path_, 0, offset, stored, bytes, progress);
     } else {
-      read_plain(path_, offset, stored, bytes);
+      read_plain(path_, offset, stored, bytes, progress);
     }
     if (nifti_.swapped) swap_bytes(stored, count_, stored_bytes_);
     if (scaled_) rescale_voxels(stored, stored_type_, voxels, type_, count_, nifti_.slope, nifti_.intercept);

@@ -21,7 +21,7 @@ class NrrdReader : public VolumeReader {
  public:
   explicit NrrdReader(const std::filesystem::path& path) : path_(path), io_(itk::NrrdImageIO::New()) {}
 
-  VolumeHeader read_header() override {
+  VolumeHeader read_header(const Progress&) override {
     VolumeHeader header = read_itk_header(*io_, path_);
     header.volume.format = format_name(FileFormat::kNrrd);
     fields_ = read_nrrd_fields(path_);
@@ -38,14 +38,14 @@ class NrrdReader : public VolumeReader {
     return in_file_;
   }
 
-  void read_voxels(void* voxels) override {
+  void read_voxels(void* voxels, const Progress& progress) override {
     const std::string encoding = fields_.value("encoding");
     if (in_file_) {
-      read_plain(in_file_->path, in_file_->offset_bytes, voxels, stored_bytes_);
+      read_plain(in_file_->path, in_file_->offset_bytes, voxels, stored_bytes_, progress);
     } else if ((encoding == "gzip" || encoding == "gz") && has_one_data_file() &&
                fields_.value("byteskip").empty()) {
       // ITK's reader does not verify the checksum, nor notice that the end of the stream is missing.
-      read_deflated(data_path(), is_attached() ? fields_.header_bytes : 0, 0, voxels, stored_bytes_);
+      read_deflated(data_path(), is_attached() ? fields_.header_bytes : 0, 0, voxels, stored_bytes_, progress);
     } else {
       return read_itk_voxels(*io_, path_, voxels, stored_bytes_);
     }

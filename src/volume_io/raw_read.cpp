@@ -39,7 +39,8 @@ void check_spec(const std::filesystem::path& path, const RawSpec& spec) {
 
 }  // namespace
 
-Volume read_raw(const std::filesystem::path& path, const RawSpec& spec, std::uint64_t memory_limit_bytes) {
+Volume read_raw(const std::filesystem::path& path, const RawSpec& spec, std::uint64_t memory_limit_bytes,
+                const Progress& progress) {
   check_spec(path, spec);
   Volume volume;
   volume.size = spec.size;
@@ -70,7 +71,7 @@ Volume read_raw(const std::filesystem::path& path, const RawSpec& spec, std::uin
   }
   check_memory(path, volume, bytes, memory_limit_bytes);
   const std::shared_ptr<void> voxels = allocate_voxels(path, bytes);
-  read_plain(path, spec.offset_bytes, voxels.get(), bytes);
+  read_plain(path, spec.offset_bytes, voxels.get(), bytes, progress);
   if (swapped) swap_bytes(voxels.get(), volume.voxel_count(), voxel_bytes(spec.type));
   volume.voxels = voxels;
   return volume;

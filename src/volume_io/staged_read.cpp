@@ -17,10 +17,19 @@
 namespace voxlume {
 namespace {
 
+/// What looking at every file of a series takes of reading it.
+constexpr double kHeaderShare = 0.2;
+
 StagedVolume read_steps(const std::filesystem::path& path, const ReadOptions& options,
                         const AllocateVoxels& allocate) {
   const std::unique_ptr<VolumeReader> reader = open_reader(path);
-  VolumeHeader header = reader->read_header();
+  double looked_at = 0;  // as a share of all reading
+  const auto within = [&](auto&& share_of_all) -> Progress {
+    if (!options.progress) return {};
+    return [&options, share_of_all](double share) { options.progress(share_of_all(share)); };
+  };
+  VolumeHeader header =
+      reader->read_header(within([&](double share) { return looked_at = kHeaderShare * share; }));
   Volume& volume = header.volume;
   if (options.spacing_mm) volume.spacing_mm = *options.spacing_mm;
   check_geometry(path, volume);
@@ -33,7 +42,8 @@ StagedVolume read_steps(const std::filesystem::path& path, const ReadOptions& op
   check_memory(path, volume, bytes, options.memory_limit_bytes);
   check_memory(path, volume, bytes + header.working_bytes, 0);
   const std::shared_ptr<void> voxels = allocate(bytes, header.working_bytes);
-  reader->read_voxels(voxels.get());
+  reader->read_voxels(voxels.get(),
+                      within([&](double share) { return looked_at + (1 - looked_at) * share; }));
   narrow_wide_integers(path, header.wide, voxels.get(), volume.voxel_count());
   volume.voxels = voxels;
   return {std::move(volume), std::nullopt};

@@ -28,7 +28,7 @@ class TiffReader : public VolumeReader {
  public:
   explicit TiffReader(std::vector<std::filesystem::path> files) : files_(std::move(files)) {}
 
-  VolumeHeader read_header() override {
+  VolumeHeader read_header(const Progress& progress) override {
     VolumeHeader header;
     Volume& volume = header.volume;
     const TiffFile first = open_tiff(files_[0]);
@@ -50,9 +50,10 @@ class TiffReader : public VolumeReader {
              fmt::format("the description promises {} slices, the file has {}", info.slices, slices));
       }
     } else {
-      check_files();
+      check_files(progress);
     }
     volume.format = files_.size() == 1 ? "TIFF" : "TIFF slices";
+    slices_ = slices;
     volume.size = {page_.width, page_.height, slices};
     volume.type = page_.type;
     volume.spacing_mm = info.spacing_mm;
@@ -64,13 +65,15 @@ class TiffReader : public VolumeReader {
     return header;
   }
 
-  void read_voxels(void* voxels) override {
+  void read_voxels(void* voxels, const Progress& progress) override {
     auto* out = static_cast<unsigned char*>(voxels);
-    if (contiguous_) return read_contiguous(out);
+    if (contiguous_) return read_contiguous(out, progress);
+    ProgressCounter pages(slices_, progress);
     if (files_.size() > 1) {
       for (const std::filesystem::path& file : files_) {
         read_tiff_page(open_tiff(file).get(), file, page_, out);
         out += page_.bytes();
+        pages.add();
       }
       return;
     }
@@ -79,6 +82,7 @@ class TiffReader : public VolumeReader {
       if (is_thumbnail(tiff.get())) continue;
       read_tiff_page(tiff.get(), files_[0], page_, out);
       out += page_.bytes();
+      pages.add();
     } while (TIFFReadDirectory(tiff.get()));
   }
 
@@ -107,9 +111,11 @@ class TiffReader : public VolumeReader {
     return pages;
   }
 
-  void check_files() const {
+  void check_files(const Progress& progress) const {
+    ProgressCounter seen(static_cast<std::int64_t>(files_.size()), progress);
     for (std::size_t i = 1; i < files_.size(); ++i) {
       const TiffFile tiff = open_tiff(files_[i]);
+      seen.add();
       check_page(tiff.get(), files_[i], static_cast<std::int64_t>(i));
       if (TIFFReadDirectory(tiff.get()) && !is_thumbnail(tiff.get())) {
         fail(ErrorCode::kUnsupported, files_[i],
@@ -131,7 +137,6 @@ class TiffReader : public VolumeReader {
     }
     offset_ = offsets[0];
     swapped_ = TIFFIsByteSwapped(tiff.get()) != 0;
-    slices_ = slices;
     const std::uint64_t file_bytes = std::filesystem::file_size(files_[0]);
     const std::uint64_t found = file_bytes - std::min(offset_, file_bytes);
     if (found / page_.bytes() < static_cast<std::uint64_t>(slices)) {
@@ -142,9 +147,9 @@ class TiffReader : public VolumeReader {
     return slices;
   }
 
-  void read_contiguous(unsigned char* out) const {
+  void read_contiguous(unsigned char* out, const Progress& progress) const {
     const std::uint64_t bytes = page_.bytes() * static_cast<std::uint64_t>(slices_);
-    read_plain(files_[0], offset_, out, bytes);
+    read_plain(files_[0], offset_, out, bytes, progress);
     if (swapped_) swap_bytes(out, bytes / voxel_bytes(page_.type), voxel_bytes(page_.type));
   }
 

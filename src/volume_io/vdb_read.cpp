@@ -32,7 +32,7 @@ class VdbReader : public VolumeReader {
  public:
   explicit VdbReader(const std::filesystem::path& path) : path_(path), file_(path.string()) {}
 
-  VolumeHeader read_header() override {
+  VolumeHeader read_header(const Progress&) override {
     VolumeHeader header;
     Volume& volume = header.volume;
     openvdb::initialize();
@@ -53,7 +53,7 @@ class VdbReader : public VolumeReader {
     return header;
   }
 
-  void read_voxels(void* voxels) override {
+  void read_voxels(void* voxels, const Progress& progress) override {
     out_ = static_cast<float*>(voxels);
     const float background = grid_->background();
     if (background != 0) fill(box_, background);
@@ -66,10 +66,12 @@ class VdbReader : public VolumeReader {
       CoordBBox tile;
       if (tiles.getBoundingBox(tile)) fill(tile, value);
     }
+    ProgressCounter leaves(static_cast<std::int64_t>(tree.leafCount()), progress);
     for (auto leaf = tree.beginLeaf(); leaf; ++leaf) {
       copy_leaf(*leaf);
       FloatGrid::TreeType::LeafNodeType::Buffer freed(openvdb::PartialCreate(), 0.0f);  // holds nothing
       leaf->swap(freed);
+      leaves.add();
     }
   }
 

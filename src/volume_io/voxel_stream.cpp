@@ -18,6 +18,22 @@ namespace {
 
 constexpr std::uint64_t kChunkBytes = 1 << 18;
 
+/// Calls read(to, bytes), which gives how many it read, for one part of `bytes` after another, until one is
+/// short; gives how many were read in all.
+template <class Read>
+std::uint64_t read_in_parts(void* voxels, std::uint64_t bytes, const Progress& progress, Read&& read) {
+  ProgressCounter counter(static_cast<std::int64_t>(bytes), progress);
+  std::uint64_t done = 0;
+  while (done < bytes) {
+    const std::uint64_t part = std::min(kChunkBytes, bytes - done);
+    const std::uint64_t got = read(static_cast<unsigned char*>(voxels) + done, part);
+    done += got;
+    counter.add(static_cast<std::int64_t>(got));
+    if (got < part) break;
+  }
+  return done;
+}
+
 std::ifstream open_at(const std::filesystem::path& path, std::uint64_t offset_bytes) {
   std::ifstream file(path, std::ios::binary);
   if (!file) fail(ErrorCode::kFileNotFound, path, "cannot open this file for reading");
@@ -77,8 +93,10 @@ class Inflater {
 };
 
 template <typename T>
-void parse_numbers(const std::filesystem::path& path, std::ifstream& file, T* voxels, std::uint64_t count) {
+void parse_numbers(const std::filesystem::path& path, std::ifstream& file, T* voxels, std::uint64_t count,
+                   const Progress& progress) {
   std::string word;
+  ProgressCounter counter(static_cast<std::int64_t>(count), progress);
   for (std::uint64_t i = 0; i < count; ++i) {
     if (!(file >> word)) {
       fail(ErrorCode::kBadFormat, path, fmt::format("expected {} numbers of voxel data, found {}", count, i));
@@ -90,6 +108,7 @@ void parse_numbers(const std::filesystem::path& path, std::ifstream& file, T* vo
            fmt::format("voxel {} is \"{}\"; expected a number of its type", i, word.substr(0, 40)));
     }
     std::memcpy(voxels + i, &value, sizeof(T));
+    counter.add();
   }
 }
 
@@ -109,17 +128,20 @@ void swap_words(void* voxels, std::uint64_t count) {
 }  // namespace
 
 void read_plain(const std::filesystem::path& path, std::uint64_t offset_bytes, void* voxels,
-                std::uint64_t bytes) {
+                std::uint64_t bytes, const Progress& progress) {
   std::ifstream file = open_at(path, offset_bytes);
-  file.read(static_cast<char*>(voxels), static_cast<std::streamsize>(bytes));
-  const auto found = static_cast<std::uint64_t>(file.gcount());
+  const std::uint64_t found =
+      read_in_parts(voxels, bytes, progress, [&](unsigned char* to, std::uint64_t part) {
+        file.read(reinterpret_cast<char*>(to), static_cast<std::streamsize>(part));
+        return static_cast<std::uint64_t>(file.gcount());
+      });
   if (found < bytes) {
     fail(ErrorCode::kBadFormat, path, fmt::format("expected {} bytes of voxels, file has {}", bytes, found));
   }
 }
 
 void read_deflated(const std::filesystem::path& path, std::uint64_t offset_bytes, std::uint64_t skip_bytes,
-                   void* voxels, std::uint64_t bytes) {
+                   void* voxels, std::uint64_t bytes, const Progress& progress) {
   std::ifstream file = open_at(path, offset_bytes);
   const auto inflater = std::make_unique<Inflater>(path);
   std::vector<unsigned char> scratch(kChunkBytes);
@@ -128,7 +150,9 @@ void read_deflated(const std::filesystem::path& path, std::uint64_t offset_bytes
     if (got == 0) fail(ErrorCode::kBadFormat, path, "compressed data ends before the voxels begin");
     left -= got;
   }
-  const std::uint64_t found = inflater->read(file, static_cast<unsigned char*>(voxels), bytes);
+  const std::uint64_t found =
+      read_in_parts(voxels, bytes, progress,
+                    [&](unsigned char* to, std::uint64_t part) { return inflater->read(file, to, part); });
   if (found < bytes) {
     fail(ErrorCode::kBadFormat, path, fmt::format("expected {} bytes of voxels, file has {}", bytes, found));
   }
@@ -151,25 +175,25 @@ bool starts_with_gzip(const std::filesystem::path& path) {
 }
 
 void read_text(const std::filesystem::path& path, std::uint64_t offset_bytes, VoxelType type, void* voxels,
-               std::uint64_t count) {
+               std::uint64_t count, const Progress& progress) {
   std::ifstream file = open_at(path, offset_bytes);
   switch (type) {
     case VoxelType::kU8:
-      return parse_numbers(path, file, static_cast<std::uint8_t*>(voxels), count);
+      return parse_numbers(path, file, static_cast<std::uint8_t*>(voxels), count, progress);
     case VoxelType::kI8:
-      return parse_numbers(path, file, static_cast<std::int8_t*>(voxels), count);
+      return parse_numbers(path, file, static_cast<std::int8_t*>(voxels), count, progress);
     case VoxelType::kU16:
-      return parse_numbers(path, file, static_cast<std::uint16_t*>(voxels), count);
+      return parse_numbers(path, file, static_cast<std::uint16_t*>(voxels), count, progress);
     case VoxelType::kI16:
-      return parse_numbers(path, file, static_cast<std::int16_t*>(voxels), count);
+      return parse_numbers(path, file, static_cast<std::int16_t*>(voxels), count, progress);
     case VoxelType::kU32:
-      return parse_numbers(path, file, static_cast<std::uint32_t*>(voxels), count);
+      return parse_numbers(path, file, static_cast<std::uint32_t*>(voxels), count, progress);
     case VoxelType::kI32:
-      return parse_numbers(path, file, static_cast<std::int32_t*>(voxels), count);
+      return parse_numbers(path, file, static_cast<std::int32_t*>(voxels), count, progress);
     case VoxelType::kF32:
-      return parse_numbers(path, file, static_cast<float*>(voxels), count);
+      return parse_numbers(path, file, static_cast<float*>(voxels), count, progress);
     case VoxelType::kF64:
-      return parse_numbers(path, file, static_cast<double*>(voxels), count);
+      return parse_numbers(path, file, static_cast<double*>(voxels), count, progress);
   }
 }
 

@@ -3,21 +3,24 @@
 #include <cstdint>
 #include <filesystem>
 
+#include "base/progress.h"
 #include "volume_io/volume_reader.h"
 #include "voxlume/volume.h"
 
 namespace voxlume {
 
+// `progress`, which may be empty, hears of the share of the voxels that is there.
+
 /// Reads `bytes` bytes from `offset_bytes` of the file into `voxels`.
 /// Throws Error kBadFormat ("expected N bytes of voxels, file has M") when the file is too short.
 void read_plain(const std::filesystem::path& path, std::uint64_t offset_bytes, void* voxels,
-                std::uint64_t bytes);
+                std::uint64_t bytes, const Progress& progress = {});
 
 /// Inflates the zlib or gzip stream (members may be concatenated) that starts at `offset_bytes`, drops its
 /// first `skip_bytes` and reads the next `bytes` into `voxels`. The stream's checksum is verified. Throws
 /// Error kBadFormat when the stream is damaged or too short.
 void read_deflated(const std::filesystem::path& path, std::uint64_t offset_bytes, std::uint64_t skip_bytes,
-                   void* voxels, std::uint64_t bytes);
+                   void* voxels, std::uint64_t bytes, const Progress& progress = {});
 
 /// The first `bytes` inflated bytes of a gzip file; the checksum is not verified.
 /// Throws Error kBadFormat when the stream is damaged or shorter.
@@ -29,7 +32,7 @@ bool starts_with_gzip(const std::filesystem::path& path);
 /// Reads `count` numbers written as text, separated by blanks, from `offset_bytes` on.
 /// Throws Error kBadFormat at text that is not a number, is out of the type's range, or ends early.
 void read_text(const std::filesystem::path& path, std::uint64_t offset_bytes, VoxelType type, void* voxels,
-               std::uint64_t count);
+               std::uint64_t count, const Progress& progress = {});
 
 /// Reverses the bytes of each of the `count` values of `value_bytes` (1, 2, 4 or 8) bytes.
 void swap_bytes(void* voxels, std::uint64_t count, std::size_t value_bytes);

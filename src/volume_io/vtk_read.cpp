@@ -61,7 +61,7 @@ class VtkReader : public VolumeReader {
  public:
   explicit VtkReader(const std::filesystem::path& path) : path_(path) {}
 
-  VolumeHeader read_header() override {
+  VolumeHeader read_header(const Progress&) override {
     data_ = find_vtk_data(path_);
     VolumeHeader header = read_itk_header(*itk::VTKImageIO::New(), path_);
     header.volume.format = format_name(FileFormat::kVtk);
@@ -82,9 +82,9 @@ class VtkReader : public VolumeReader {
     return header;
   }
 
-  void read_voxels(void* voxels) override {
-    if (!data_.binary) return read_text(path_, data_.offset_bytes, type_, voxels, count_);
-    read_plain(path_, data_.offset_bytes, voxels, count_ * value_bytes_);
+  void read_voxels(void* voxels, const Progress& progress) override {
+    if (!data_.binary) return read_text(path_, data_.offset_bytes, type_, voxels, count_, progress);
+    read_plain(path_, data_.offset_bytes, voxels, count_ * value_bytes_, progress);
     swap_bytes(voxels, count_, value_bytes_);  // binary legacy VTK is big-endian
   }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "cli_fixture.h"
@@ -48,6 +49,18 @@ TEST_F(CliTest, InfoForPeople) {
   EXPECT_THAT(r.out, HasSubstr("1 x 1 x 1.5 mm"));
   EXPECT_THAT(r.out, HasSubstr("-1000 to 1000"));
   EXPECT_THAT(run({"info", "ball.raw", "--raw", "16x16x16,i16,2,2,2"}).out, HasSubstr("32 x 32 x 32 mm"));
+}
+
+TEST_F(CliTest, InfoTellsATerminalHowFarItIs) {
+  if (std::system("script --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "no script, which makes a terminal";
+  write("large.raw", std::string(2 * 100 * 100 * 60, 'x'));
+  const std::string info = std::string(VOXLUME_BINARY) + " info large.raw --raw 100x100x60,i16,1,1,1,big";
+  const std::string command = "cd '" + folder_.string() + "' && script -qec '" + info + "' seen > /dev/null";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  const std::string seen = read("seen");
+  EXPECT_THAT(seen, testing::ContainsRegex("reading large.raw: [1-9][0-9]? %"));
+  EXPECT_THAT(seen, HasSubstr("looking over large.raw: 50 %"));
+  EXPECT_THAT(seen, HasSubstr("100 x 100 x 60 voxels"));
 }
 
 TEST_F(CliTest, ConvertThereAndBack) {

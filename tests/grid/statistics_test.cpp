@@ -55,6 +55,15 @@ TYPED_TEST(Statistics, AgreeWithSorting) {
   EXPECT_EQ(total, volume.voxel_count());
 }
 
+TYPED_TEST(Statistics, TellHowFarTheyAre) {
+  const Volume volume = noise_volume<TypeParam>({5, 4, 17}, 31);
+  std::vector<double> shares;  // told of by one thread at a time
+  compute_statistics(make_grid_view(volume), [&](double share) { shares.push_back(share); });
+  ASSERT_EQ(shares.size(), sizeof(TypeParam) <= 2 ? 17u : 34u);
+  for (std::size_t i = 1; i < shares.size(); ++i) EXPECT_GT(shares[i], shares[i - 1]);
+  EXPECT_EQ(shares.back(), 1);
+}
+
 TYPED_TEST(Statistics, OneValue) {
   const Volume volume = make_volume<TypeParam>({4, 3, 1}, [](auto, auto, auto) { return 7; });
   const VolumeStatistics statistics = compute_statistics(make_grid_view(volume));

@@ -108,6 +108,34 @@ TEST(Environment, HitIsTheTexelScaled) {
   EXPECT_LE(differing, 2);  // directions on a texel's border
 }
 
+/// Another colour, intensity or way to sample makes of a picture in hand what it makes of one given anew.
+TEST(Environment, AnUpdateKeepsThePictureAlone) {
+  const EnvironmentImage image = test::sky();
+  EnvironmentDescription d;
+  Lights updated = compile({}, d, &image);
+  const Vec3f* const texels = updated.view().environment.texels;
+  Rng rng(8, 0, 0, 0);
+  for (const auto samples : {EnvironmentSamples::kWhole, EnvironmentSamples::kExcess, EnvironmentSamples::kUniform})
+    for (const double intensity : {2.0, 0.0, 0.3}) {
+      d.intensity = intensity;
+      d.color.linear[1] = 0.5f;
+      updated.update({}, d, ViewFrame{}, SceneSphere{{0, 0, 0}, 100}, samples);
+      const Lights anew = compile({}, d, &image, samples);
+      EXPECT_EQ(updated.view().environment_mean, anew.view().environment_mean);
+      EXPECT_EQ(updated.view().has_environment, intensity > 0);
+      for (int i = 0; i < 100; ++i) {
+        const float u_pick = rng.next(), u0 = rng.next(), u1 = rng.next();
+        const LightSample a = sample_light(updated.view(), Vec3f(0.0f), u_pick, u0, u1);
+        const LightSample b = sample_light(anew.view(), Vec3f(0.0f), u_pick, u0, u1);
+        EXPECT_EQ(a.pdf, b.pdf);
+        if (b.pdf > 0) {
+          EXPECT_EQ(a.radiance, b.radiance);
+        }
+      }
+    }
+  EXPECT_EQ(updated.view().environment.texels, texels);
+}
+
 TEST(Environment, SampleAgreesWithHit) {
   const Lights lights = sky_lights(-71);
   const LightsView view = lights.view();

@@ -37,6 +37,17 @@ TEST(FrameSize, IsAnEighthAtLeastAndTheWholeAtMost) {
   EXPECT_EQ(slow.next(1, 1), (FrameSize{1, 1, 1}));
 }
 
+/// A still picture needs more samples after larger moving ones, of more samples and of more frames; of sizes
+/// only their ratio counts.
+TEST(FirstStill, WaitsUntilItIsBetterThanTheMovingPicture) {
+  const int coarse = first_still_spp({320, 180, 1}, 30, 1280), fine = first_still_spp({640, 360, 1}, 30, 1280);
+  EXPECT_GE(coarse, 3);  // as measured
+  EXPECT_GE(fine, 6);
+  EXPECT_EQ(first_still_spp({640, 360, 1}, 1, 1280), coarse);
+  EXPECT_EQ(first_still_spp({1280, 720, 3}, 30, 1280), 3 * fine);
+  EXPECT_EQ(first_still_spp({160, 90, 1}, 30, 320), fine);
+}
+
 TEST(FrameSize, StaysWhereCostsWaver) {
   FrameSizeChoice choice(1.0 / 30);
   settled(choice, 0.002, 1e-7, 1e-7);

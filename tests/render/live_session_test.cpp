@@ -3,8 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <future>
 
+#include "grid/phantom.h"
 #include "render/picture.h"
 #include "scene/resolve.h"
 #include "support/volumes.h"
@@ -47,6 +50,7 @@ class Heard {
               troubles_.emplace_back(revision, message);
               changed_.notify_all();
             },
+            {},
             {}};
   }
 
@@ -130,6 +134,24 @@ TEST(LiveSession, StopsAtTheNoiseThatTheRenderCommandStopsAt) {
   EXPECT_EQ(frame->linear->rgba, rendered(live, live.session().description()).rgba);
 }
 
+TEST(LiveSession, MovingFramesShrinkForWhatTracingTakes) {
+  Heard heard;
+  SceneDescription scene = small_scene();
+  scene.image.width = scene.image.height = 256;
+  scene.render.max_scatter = 100;
+  scene.render.denoise = "none";
+  // Long enough for all but tracing, which takes several times as long at full size.
+  LiveOptions options;
+  options.frame_budget_s = 0.02;
+  options.rest_s = 1e9;
+  LiveSession live(scene, ball(), heard.listener(), options);
+  live.show(live.session().description());
+  const FramePtr settled = heard.wait_for([](const LiveFrame& f) { return f.number == 30; });
+  EXPECT_TRUE(settled->moving);
+  EXPECT_LT(settled->picture.width, 256) << "tracing took " << settled->trace_s << " s";
+  EXPECT_GT(settled->trace_s, 0);
+}
+
 TEST(LiveSession, OfManyEditsFromManyThreadsTheLastWins) {
   Heard heard;
   LiveSession live(small_scene(), ball(), heard.listener(), quick());
@@ -203,6 +225,116 @@ TEST(LiveSession, DevelopmentKeepsTheSamples) {
   for (const FramePtr& frame : heard.frames())
     if (frame->revision == more) { EXPECT_GE(frame->spp, 64); }
   EXPECT_EQ(longer->linear->rgba, rendered(live, scene).rgba);
+}
+
+/// Of the pixels as they are on screen, where a small picture fills the place of a large one.
+double error_on_screen(const LiveFrame& frame, const Image8& reference) {
+  double sum = 0;
+  for (int y = 0; y < reference.height; ++y)
+    for (int x = 0; x < reference.width; ++x) {
+      const auto at = [](int i, int count, int from) {
+        return std::clamp((i + 0.5) * from / count - 0.5, 0.0, from - 1.0);
+      };
+      const double u = at(x, reference.width, frame.picture.width), v = at(y, reference.height, frame.picture.height);
+      const int i = std::min(static_cast<int>(u), frame.picture.width - 2);
+      const int j = std::min(static_cast<int>(v), frame.picture.height - 2);
+      for (int c = 0; c < 3; ++c) {
+        const auto value = [&](int column, int row) {
+          return 1.0 * frame.picture.values[static_cast<std::size_t>((row * frame.picture.width + column) * 3 + c)];
+        };
+        const double top = std::lerp(value(i, j), value(i + 1, j), u - i);
+        const double bottom = std::lerp(value(i, j + 1), value(i + 1, j + 1), u - i);
+        const double off = std::lerp(top, bottom, v - j) -
+                           reference.values[static_cast<std::size_t>((y * reference.width + x) * 3 + c)];
+        sum += off * off;
+      }
+    }
+  return std::sqrt(sum / (3.0 * reference.width * reference.height));
+}
+
+TEST(LiveSession, ThePictureGetsNoWorseWhenItComesToRest) {
+  Heard heard;
+  SceneDescription scene;
+  scene.transfer.preset = "ct-bone";
+  scene.image.width = 192;
+  scene.image.height = 144;
+  scene.image.spp = 64;
+  scene.render.denoise = "decoupled";
+  LiveSession live(scene, make_head_phantom(), heard.listener(), quick());
+  scene = live.session().description();
+  for (int i = 0; i < 24; ++i) {
+    scene.camera.azimuth_deg += 2;
+    const std::uint64_t revision = live.show(scene);
+    heard.wait_for([&](const LiveFrame& f) { return f.revision == revision; });
+  }
+  heard.wait_for([](const LiveFrame& f) { return f.done; });
+  SceneDescription other = scene;  // other samples of the same
+  other.render.seed += 1;
+  other.image.spp = 512;
+  const Image8 reference = tone_map(rendered(live, other), {scene.image.exposure_ev, scene.image.tone_curve});
+  std::vector<FramePtr> frames = heard.frames();
+  const auto still = std::find_if(frames.begin(), frames.end(), [](const FramePtr& f) { return !f->moving; });
+  ASSERT_TRUE(still != frames.begin() && still != frames.end());
+  frames.erase(frames.begin(), still - 1);
+  for (std::size_t i = 1; i < frames.size(); ++i) {
+    EXPECT_FALSE(frames[i]->moving);
+    EXPECT_LE(error_on_screen(*frames[i], reference), 1.02 * error_on_screen(*frames[i - 1], reference))
+        << frames[i]->spp << " spp after " << frames[i - 1]->spp << " of " << frames[i - 1]->picture.width;
+  }
+}
+
+TEST(LiveSession, AStillPictureIsDevelopedAgainAtOnce) {
+  Heard heard;
+  SceneDescription scene = small_scene();
+  scene.render.denoise = "none";
+  scene.image.spp = 8;
+  LiveSession live(scene, ball(), heard.listener(), quick());
+  scene = live.session().description();
+  const FramePtr first = heard.wait_done(live.show(scene));
+  std::uint64_t shown = first->number;
+  const auto expect_stills = [&](std::uint64_t last) {
+    for (const FramePtr& frame : heard.frames())
+      if (frame->number > shown) {
+        EXPECT_FALSE(frame->moving);
+        EXPECT_EQ(frame->spp, 8);
+        EXPECT_EQ(frame->picture.width, 48);
+      }
+    shown = last;
+  };
+  const auto change = [&](auto edit) {
+    edit(scene);
+    const std::uint64_t revision = live.show(scene);
+    const FramePtr after = heard.wait_done(revision);
+    expect_stills(after->number);
+    EXPECT_THAT(after->linear->metadata.at("voxlume:scene"), testing::HasSubstr("exposure_ev"));
+  };
+  change([](SceneDescription& s) { s.image.exposure_ev = 1.5; });
+  change([](SceneDescription& s) { s.image.tone_curve = ToneCurve::kSrgb; });
+  for (const char* name : {"decoupled", "svgf", "wrls", "none", "decoupled"})
+    change([&](SceneDescription& s) { s.render.denoise = name; });
+  live.set_split(0.3);
+  const FramePtr split = heard.wait_for([&](const LiveFrame& f) { return f.done && f.number > shown; });
+  expect_stills(split->number);
+}
+
+/// An edit that interrupts a pass leaves some tiles with more samples than others.
+TEST(LiveSession, PassesThatAreInterruptedAreFinished) {
+  Heard heard;
+  SceneDescription scene = small_scene();
+  scene.image.width = scene.image.height = 200;
+  LiveSession live(scene, ball(), heard.listener(), quick());
+  scene = live.session().description();
+  std::uint64_t revision = live.show(scene);
+  heard.wait_for([](const LiveFrame& f) { return f.moving; });
+  std::this_thread::sleep_for(std::chrono::milliseconds(30));
+  for (int i = 0; i < 40; ++i) {
+    scene.image.exposure_ev = 0.05 * i;
+    revision = live.show(scene);
+    std::this_thread::sleep_for(std::chrono::milliseconds(3));
+  }
+  const FramePtr frame = heard.wait_done(revision);
+  EXPECT_EQ(frame->spp, 64);
+  EXPECT_EQ(frame->linear->rgba, rendered(live, scene).rgba);
 }
 
 TEST(LiveSession, SplitsThePictureWhereTold) {

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <limits>
 
@@ -258,10 +260,44 @@ TEST(Compile, AnUpdateKeepsTheTablesOfTheEnvironmentsPicture) {
   change([](SceneDescription& s) { s.environment->rotation_deg = 70; });
   change([](SceneDescription& s) { s.environment->attached_to = Attachment::kCamera; });
   change([](SceneDescription& s) { s.camera.elevation_deg = 60; });
-  EXPECT_EQ(updated.view().lights.environment.texels, texels);
   change([](SceneDescription& s) { s.environment->intensity = 0.1; });
+  change([](SceneDescription& s) { s.environment->color = Color{{1, 0.5f, 0.2f}}; });
+  change([](SceneDescription& s) { s.render.light_sampling = "light"; });
+  EXPECT_EQ(updated.view().lights.environment.texels, texels);
   change([](SceneDescription& s) { s.environment->image.clear(); });
   std::filesystem::remove(path);
+}
+
+TEST(Compile, AnUpdateReadsTheEnvironmentsPictureWhenItsFileIsAnother) {
+  const auto path =
+      std::filesystem::temp_directory_path() / ("voxlume-dusk-" + std::to_string(::getpid()) + ".exr");
+  const auto write = [&](float value) {
+    Image sky(8, 4);
+    std::fill(sky.rgba.begin(), sky.rgba.end(), value);
+    write_exr(sky, path);
+  };
+  write(1);
+  const auto time = std::filesystem::last_write_time(path);
+  const Volume phantom = make_head_phantom();
+  const VolumeStatistics statistics = compute_statistics(make_grid_view(phantom));
+  SceneDescription scene = resolve({}, phantom, statistics);
+  scene.environment->image = path.string();
+  scene.environment->color = Color{{1, 1, 1}};
+  CompiledScene compiled(scene, phantom, statistics);
+  const auto mean_at = [&](double intensity) {
+    scene.environment->intensity = intensity;
+    compiled.update(scene);
+    return compiled.view().lights.environment_mean.x;
+  };
+  write(5);
+  std::filesystem::last_write_time(path, time);
+  EXPECT_FLOAT_EQ(mean_at(2), 2);  // not read: nothing tells that it is another
+  std::filesystem::last_write_time(path, time + std::chrono::seconds(1));
+  EXPECT_FLOAT_EQ(mean_at(3), 15);
+  std::filesystem::remove(path);
+  EXPECT_FLOAT_EQ(mean_at(4), 20);
+  scene.environment->image.clear();
+  EXPECT_FLOAT_EQ(mean_at(4), 4);
 }
 
 TEST(Resolve, TheFramingStaysWhileAClipBoxMoves) {

@@ -34,7 +34,7 @@ TEST(Cookie, IsFoundAmongOthers) {
 
 TEST(Access, LetsInTheCookieItGave) {
   const Access access("0123456789abcdef", "127.0.0.1", 8080);
-  EXPECT_EQ(access.set_cookie(), "voxlume_8080=0123456789abcdef; Path=/; HttpOnly; SameSite=Strict");
+  EXPECT_EQ(access.set_cookie(), "voxlume_8080=0123456789abcdef; Path=/; HttpOnly; SameSite=Lax");
   EXPECT_TRUE(access.has_cookie("voxlume_8080=0123456789abcdef"));
   for (const char* wrong : {"", "voxlume_8080=", "voxlume_8080=0123456789abcdee",
                             "voxlume_8081=0123456789abcdef", "voxlume_8080=0123456789abcdef0"})
@@ -76,6 +76,19 @@ TEST(Origin, HasTheHostAndPortOfTheRequest) {
                             "ftp://127.0.0.1:8080", "127.0.0.1:8080"})
     EXPECT_FALSE(is_same_origin(wrong, "127.0.0.1:8080")) << wrong;
   EXPECT_FALSE(is_same_origin("http://", ""));
+}
+
+TEST(Access, OtherSitesPagesLeadToThePageAlone) {
+  for (const char* own : {"", "same-origin", "none"}) {
+    EXPECT_TRUE(may_ask(own, "/")) << own;
+    EXPECT_TRUE(may_ask(own, "/api/scene.json")) << own;
+  }
+  for (const char* other : {"cross-site", "same-site"}) {
+    EXPECT_TRUE(may_ask(other, "/")) << other;
+    for (const char* path :
+         {"/api/scene.json", "/api/upload", "/api/socket", "/assets/app.js", "/index.html"})
+      EXPECT_FALSE(may_ask(other, path)) << other << path;
+  }
 }
 
 TEST(Loopback, IsThisMachineAlone) {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdlib>
 
 #include "server_fixture.h"
 
@@ -57,6 +58,57 @@ TEST_F(Export, CanBeCancelled) {
   page->send({{"type", "cancel_export"}});  // nothing is under way: nothing happens
   page->send(edit(1, "/camera/zoom", 2));
   EXPECT_EQ(page->next("edited")["seq"], 1);
+}
+
+/// With an ffmpeg that never comes to an end, and tells its process.
+class ExportOfAMovie : public Export {
+ protected:
+  void SetUp() override {
+    Export::SetUp();
+    std::filesystem::create_directories(folder_ / "bin");
+    write_bytes(folder_ / "bin/ffmpeg", "#!/bin/sh\necho $$ > " + process_.string() + ".part\nmv " +
+                                            process_.string() + ".part " + process_.string() +
+                                            "\nexec sleep 1000\n");
+    std::filesystem::permissions(folder_ / "bin/ffmpeg", std::filesystem::perms::owner_all);
+    ::setenv("PATH", ((folder_ / "bin").string() + ":/usr/bin:/bin").c_str(), 1);
+  }
+  void TearDown() override {
+    Export::TearDown();
+    ::setenv("PATH", path_.c_str(), 1);
+  }
+  static bool comes_true(const std::function<bool()>& what) {
+    for (int i = 0; i < 1000 && !what(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    return what();
+  }
+  /// Begins to encode.
+  void encode(Page& page) {
+    page.send({{"type", "export"}, {"file", "turn.mp4"}});
+    ASSERT_TRUE(comes_true([&] { return std::filesystem::exists(process_); }));
+  }
+  bool ffmpeg_runs() const {
+    const std::string number = read_bytes(process_);
+    // What ended and was not waited for has no command line.
+    return !read_bytes("/proc/" + number.substr(0, number.find('\n')) + "/cmdline").empty();
+  }
+
+  const std::filesystem::path process_ = folder_ / "process";
+  const std::string path_ = std::getenv("PATH");
+};
+
+TEST_F(ExportOfAMovie, CanBeCancelledWhileItIsEncoded) {
+  const auto page = open(3);
+  encode(*page);
+  EXPECT_TRUE(ffmpeg_runs());
+  page->send({{"type", "cancel_export"}});
+  EXPECT_EQ(state(*page, "cancelled")["file"], "turn.mp4");
+  EXPECT_TRUE(comes_true([&] { return !ffmpeg_runs(); }));
+}
+
+TEST_F(ExportOfAMovie, EndsWithTheServer) {
+  const auto page = open(3);
+  encode(*page);
+  stop();
+  EXPECT_TRUE(comes_true([&] { return !ffmpeg_runs(); }));
 }
 
 TEST_F(Export, OfWhatCannotBeIsRefused) {

@@ -25,6 +25,9 @@ TEST(Messages, AreRead) {
   EXPECT_EQ(read<SplitMessage>(R"({"type":"split","at":null})").at, std::nullopt);
   EXPECT_EQ(read<SeekMessage>(R"({"type":"seek","time_s":1.5})").time_s, 1.5);
   EXPECT_EQ(read<ProbeMessage>(R"({"type":"probe","id":3,"x":0.25,"y":1})").y, 1);
+  EXPECT_EQ(read<ProbeMessage>(R"({"type":"probe","id":3,"x":0.25,"y":1})").position_mm, std::nullopt);
+  EXPECT_EQ(read<ProbeMessage>(R"({"type":"probe","id":3,"position_mm":[1,-2.5,3]})").position_mm,
+            Vec3d(1, -2.5, 3));
   EXPECT_EQ(read<OpenMessage>(R"({"type":"open","path":"a b"})").path, "a b");
   EXPECT_EQ(read<ShownMessage>(R"({"type":"shown","frame":12})").frame, 12u);
   EXPECT_EQ(read<ExportMessage>(R"({"type":"export","file":"a.zip"})").file, "a.zip");
@@ -66,6 +69,9 @@ TEST(Messages, OfWrongShapeAreRefusedInOneLine) {
            R"({"type":"probe","id":1,"x":0.5})",
            R"({"type":"probe","id":1,"x":-0.1,"y":0})",
            R"({"type":"probe","id":1,"x":1e999,"y":0})",
+           R"({"type":"probe","id":1,"position_mm":[1,2]})",
+           R"({"type":"probe","id":1,"position_mm":[1,2,"3"]})",
+           R"({"type":"probe","id":1,"position_mm":[1,2,1e999]})",
            R"({"type":"shown","frame":-1})",
            R"({"type":"shown"})",
            R"({"type":"export"})",

@@ -25,6 +25,7 @@ TEST_F(Socket, HelloComesFirstAndSaysWhatThereIs) {
   const json hello = page.next();
   ASSERT_EQ(hello["type"], "hello");
   EXPECT_EQ(hello["folder"], "files");
+  EXPECT_TRUE(hello["movies"].is_boolean());
   EXPECT_EQ(hello["samples"].back()["path"], "phantom");
   EXPECT_EQ(hello["environments"][0]["name"], "sky");
   for (const char* list : {"presets", "materials", "denoisers"}) {
@@ -41,15 +42,37 @@ TEST_F(Socket, HelloComesFirstAndSaysWhatThereIs) {
 TEST_F(Socket, OpeningTellsItsStagesThenTheSceneThenPictures) {
   Page page(start());
   page.send({{"type", "open"}, {"path", "ramp.nrrd"}});
-  EXPECT_EQ(page.next("status", [](const json& m) { return m["stage"] != "empty"; })["stage"], "reading");
-  EXPECT_EQ(page.next("status")["stage"], "preparing");
-  EXPECT_EQ(page.next("status")["stage"], "ready");
+  const auto new_stage = [](const json& m) { return m["stage"] != "empty" && !m.contains("share"); };
+  EXPECT_EQ(page.next("status", new_stage)["stage"], "reading");
+  EXPECT_EQ(page.next("status", new_stage)["stage"], "preparing");
+  EXPECT_EQ(page.next("status", new_stage)["stage"], "ready");
   const json scene = page.next("scene");
   EXPECT_EQ(scene["scene"]["volume"]["path"], (std::filesystem::canonical(files_) / "ramp.nrrd").string());
   EXPECT_FALSE(scene["scene"]["transfer"]["points"].empty());
   EXPECT_EQ(scene["can_undo"], false);
   const json frame = page.next("frame");
   EXPECT_EQ(frame["revision"], scene["revision"]);
+}
+
+TEST_F(Socket, OpeningTellsHowFarItIs) {
+  std::uint32_t n = 1;  // noise, which takes several parts to be inflated
+  const auto noise = [&](auto, auto, auto) { return (n = n * 1664525u + 1013904223u) >> 17; };
+  write_volume(make_volume<std::int16_t>({110, 100, 100}, noise), files_ / "noise.nrrd");
+  Page page(start());
+  page.send({{"type", "open"}, {"path", "noise.nrrd"}});
+  for (const std::string stage : {"reading", "preparing"}) {
+    double before = 0;
+    for (int i = 0; i < 4; ++i) {
+      const json status = page.next("status", [](const json& m) { return m.contains("share"); });
+      EXPECT_EQ(status["stage"], stage);
+      EXPECT_EQ(status["what"], "noise.nrrd");
+      EXPECT_GT(status["share"].get<double>(), before);
+      before = status["share"].get<double>();
+    }
+    const auto done = [&](const json& m) { return m["stage"] == stage && m.value("share", 0.0) == 1; };
+    EXPECT_GT(page.next("status", done)["share"].get<double>(), before);
+  }
+  EXPECT_EQ(page.next("status")["stage"], "ready");
 }
 
 TEST_F(Socket, APictureIsAWholePng) {
@@ -74,6 +97,21 @@ TEST_F(Socket, MovingPicturesAreJpeg) {
   const json frame = page.next("frame", [](const json& m) { return m["moving"] == true; });
   EXPECT_EQ(frame["format"], "jpeg");
   EXPECT_EQ(page.last_picture().substr(0, 2), "\xFF\xD8");
+}
+
+TEST_F(Socket, AStillPictureIsDevelopedAgainWithoutMoving) {
+  Page page(start_with_ramp());
+  page.next("frame", [](const json& m) { return m["done"] == true; });
+  for (int i = 1; i <= 5; ++i) page.send(edit(i, "/image/exposure_ev", 0.2 * i));
+  const json last = page.next("edited", [](const json& m) { return m["seq"] == 5; });
+  page.send({{"type", "split"}, {"at", 0.5}});
+  json frame;
+  do {
+    frame = page.next("frame");
+    EXPECT_EQ(frame["moving"], false);
+    EXPECT_EQ(frame["width"], 32);
+  } while (frame["done"] != true || frame["revision"] != last["revision"]);
+  EXPECT_EQ(frame["format"], "png");
 }
 
 TEST_F(Socket, EditsAreAnsweredInOrderAndSeen) {
@@ -151,6 +189,8 @@ TEST_F(Socket, EditsWhileNothingIsOpenAreRefused) {
   }
   page.send({{"type", "probe"}, {"id", 4}, {"x", 0.5}, {"y", 0.5}});
   EXPECT_EQ(page.next("probe"), json({{"type", "probe"}, {"id", 4}, {"hit", false}}));
+  page.send({{"type", "probe"}, {"id", 5}, {"position_mm", {0, 0, 0}}});
+  EXPECT_EQ(page.next("probe"), json({{"type", "probe"}, {"id", 5}, {"hit", false}}));
 }
 
 TEST_F(Socket, TwoPagesSeeTheSame) {
@@ -398,6 +438,17 @@ TEST_F(Socket, ProbesFindPlaceValueAndLabel) {
             json::array({{{"of", "labels"}, {"value", label}, {"name", label == 1 ? "left" : "right"}}}));
   page.send({{"type", "probe"}, {"id", 8}, {"x", 0}, {"y", 0}});
   EXPECT_EQ(page.next("probe"), json({{"type", "probe"}, {"id", 8}, {"hit", false}}));
+  // The same place by its position, and one between voxels that the picture does not show.
+  page.send({{"type", "probe"}, {"id", 9}, {"position_mm", place}});
+  json again = page.next("probe");
+  again["id"] = 7;
+  EXPECT_EQ(again, hit);
+  page.send({{"type", "probe"}, {"id", 10}, {"position_mm", {-1.25, 2.5, 0.75}}});
+  const json deep = page.next("probe");
+  EXPECT_NEAR(deep["value"].get<double>(), 6.25 + 20 * 10 + 400 * 8.25, 0.01);
+  EXPECT_EQ(deep["labels"][0]["value"], 1);
+  page.send({{"type", "probe"}, {"id", 11}, {"position_mm", {0, 0, 8.1}}});
+  EXPECT_EQ(page.next("probe"), json({{"type", "probe"}, {"id", 11}, {"hit", false}}));
 }
 
 TEST_F(Socket, TroubleIsToldAndTheLastGoodPictureStays) {

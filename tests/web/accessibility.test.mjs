@@ -1,34 +1,10 @@
 // For everybody: names of controls, contrast, and room at 1280 x 720, with each panel open in both themes.
 import assert from "node:assert/strict";
 import { after, test } from "node:test";
+import { overflowing, violations } from "./checks.mjs";
 import { axeSource, closeBrowser, headCt, open, quick, sample, samples } from "./page.mjs";
 
 after(closeBrowser);
-
-/** What axe-core finds against WCAG 2.1 A and AA, one line for each element. The unit beside a number that cannot be
- * changed is left out: what is disabled may be faint, and axe-core does not know that it belongs to it. */
-async function violations(page) {
-  return page.evaluate(async () => {
-    const { violations: found } = await window.axe.run({ exclude: [".disabled .unit"] }, { runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa"], resultTypes: ["violations"] });
-    return found.flatMap(({ id, nodes }) => nodes.map(({ html, any }) => `${id}: ${html.slice(0, 160)} ${any[0]?.message ?? ""}`));
-  });
-}
-
-/** What reaches beyond the window, or is wider than the panel it is in. */
-function overflowing(page) {
-  return page.evaluate(() => {
-    const out = [];
-    const { documentElement: whole } = document;
-    if (whole.scrollWidth > innerWidth || whole.scrollHeight > innerHeight) out.push("the page");
-    for (const dock of document.querySelectorAll(".dock")) {
-      const { left, right, top, bottom } = dock.getBoundingClientRect();
-      if (left < 0 || top < 0 || right > innerWidth || bottom > innerHeight) out.push(`the panel ${dock.getAttribute("aria-label")}`);
-      const body = dock.querySelector(".dock-body");
-      if (body.scrollWidth > body.clientWidth) out.push(`what is in ${dock.getAttribute("aria-label")}`);
-    }
-    return out;
-  });
-}
 
 // With a volume of labels where there is one, so that their panel has something to show.
 const labels = sample("aal.nii.gz") ? ["--labels", sample("aal.nii.gz")] : [];

@@ -202,11 +202,11 @@ export function psnr(a, b) {
   return value ?? Infinity;
 }
 
-/** A cube of 48 x 48 x 48 voxels of 1 mm, its first voxel's centre at the origin. */
-function writeCube(file, valueAt) {
+/** A cube of 48 x 48 x 48 voxels of 1 mm (`dz` mm along z), its first voxel's centre at the origin. */
+function writeCube(file, valueAt, dz = 1) {
   const n = 48, voxels = new Uint16Array(n * n * n);
   for (let k = 0, at = 0; k < n; ++k) for (let j = 0; j < n; ++j) for (let i = 0; i < n; ++i, ++at) voxels[at] = valueAt(i, j, k);
-  const header = `NRRD0004\ntype: uint16\ndimension: 3\nsizes: ${n} ${n} ${n}\nencoding: raw\nendian: little\nspace: left-posterior-superior\nspace directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n\n`;
+  const header = `NRRD0004\ntype: uint16\ndimension: 3\nsizes: ${n} ${n} ${n}\nencoding: raw\nendian: little\nspace: left-posterior-superior\nspace directions: (1,0,0) (0,1,0) (0,0,${dz})\nspace origin: (0,0,0)\n\n`;
   writeFileSync(file, Buffer.concat([Buffer.from(header), Buffer.from(voxels.buffer)]));
   return file;
 }
@@ -215,5 +215,10 @@ function writeCube(file, valueAt) {
 export const writeBall = (file) => writeCube(file, (i, j, k) => ((i - 23.5) ** 2 + (j - 23.5) ** 2 + (k - 23.5) ** 2 < 400 ? 200 : 0));
 /** A small NRRD file: 1000 + 10 x. */
 export const writeRamp = (file) => writeCube(file, (i) => 1000 + 10 * i);
+
+/** A small NRRD file: 0 and 1000 by turns along z, where a voxel is 1.7 mm. */
+export const writeWaves = (file) => writeCube(file, (i, j, k) => 1000 * (k % 2), 1.7);
+/** A small NRRD file of labels: 1 to 4 in quarters from the patient's right to the left. */
+export const writeQuarters = (file) => writeCube(file, (i) => 1 + Math.floor(i / 12));
 
 export { readFileSync, startViewer };

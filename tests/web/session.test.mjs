@@ -1,7 +1,9 @@
 // What outlives a page, or a viewer: links, pictures with all their light, and connections that end.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
+import { createServer } from "node:http";
 import { join } from "node:path";
+import { deflateSync } from "node:zlib";
 import { after, test } from "node:test";
 import { closeBrowser, headCt, open, program, psnr, quick, readFileSync, startViewer } from "./page.mjs";
 
@@ -37,6 +39,36 @@ test("a copied link opens the same scene", async (t) => {
   await viewer.page.goto(`${link.slice(0, link.length - 40)}`);
   await viewer.page.getByText("copy the whole link again").waitFor();
   assert.deepEqual(await viewer.scene(), linked);
+});
+
+test("links on another site's page lead into the viewer", async (t) => {
+  const viewer = await open(t, [headCt, ...quick]);
+  await viewer.done();
+  const scene = { ...(await viewer.scene()), camera: { azimuth_deg: 33 } };
+  const hash = `#scene=${deflateSync(JSON.stringify(scene)).toString("base64url")}`;
+  const link = (url, text) => `<p><a href="${url}">${text}</a></p>`;
+  const { url } = viewer.viewer;
+  // Of another host than the viewer, and so of another site.
+  const other = createServer((_, answer) => answer.end(link(url, "the viewer") + link(new URL("/", url).href + hash, "a scene") + link(new URL("/api/scene.json", url).href, "a file")));
+  await new Promise((resolve) => other.listen(0, "localhost", resolve));
+  t.after(() => other.close());
+  const elsewhere = `http://localhost:${other.address().port}/`;
+  const context = await viewer.page.context().browser().newContext();
+  t.after(() => context.close());
+  const page = await context.newPage();
+  const follow = async (text) => {
+    await page.goto(elsewhere);
+    await page.getByRole("link", { name: text }).click();
+    await page.waitForURL(`${new URL(url).origin}/**`);
+  };
+  for (let times = 0; times < 2; ++times) {
+    await follow("the viewer");
+    await page.waitForFunction(() => document.title.includes("-"));
+  }
+  await follow("a scene");
+  await viewer.sceneWith((s) => s.camera.azimuth_deg === 33, "the linked view");
+  await follow("a file");
+  await page.getByText("another site's page").waitFor();
 });
 
 test("an EXR has the picture in linear light", async (t) => {

@@ -47,7 +47,7 @@ test("reads value and position under the pointer", async (t) => {
   const front = center_mm - Math.sqrt(radius_mm ** 2 - 10 ** 2 - 5 ** 2);
   assert.ok(Math.abs(x - (center_mm + 10)) < 0.5 && Math.abs(z - (center_mm - 5)) < 0.5, `${x} ${z}`);
   assert.ok(Math.abs(y - front) < 1, `${y}, not ${front}`);
-  assert.match(await position.innerText(), /L\s+[\d.]+ P\s+[\d.]+ S/);
+  assert.match(await position.innerText(), /^L [\d.]+\s+P [\d.]+\s+S [\d.]+ mm$/);
   const value = Number((await viewer.page.locator(".status-bar .value").innerText()).match(/[\d.]+/)[0]);
   assert.ok(value > 80 && value <= 200, `the surface's value is ${value}`);
   // Beside the ball there is nothing to read.
@@ -83,6 +83,56 @@ test("measures a distance that is known, and its end can be moved", async (t) =>
   await viewer.button("Done").click();
   await viewer.page.getByText("Click two points").waitFor({ state: "detached" });
   assert.deepEqual((await viewer.scene()).camera, scene.camera, "measuring has moved the camera");
+});
+
+test("keys alone measure a distance, whose length is told", async (t) => {
+  const viewer = await openBall(t);
+  const { page } = viewer;
+  const view = page.getByRole("application", { name: /^View of the volume/ });
+  const voice = page.getByRole("status", { name: "Measuring" });
+  const { camera } = await viewer.scene();
+  await view.focus();
+  await page.keyboard.press("m");
+  assert.match(await view.getAttribute("aria-label"), /Arrow keys move the cursor/);
+  const far = async (key, times) => {
+    for (let i = 0; i < times; ++i) await page.keyboard.press(`Shift+${key}`);
+  };
+  // From the ball's middle 100 px to the left.
+  await far("ArrowLeft", 10);
+  await page.locator(".view .key-cursor").waitFor();
+  await voice.filter({ hasText: /^[LR] [\d.]+\s+[AP] [\d.]+\s+[SI] [\d.]+ mm$/ }).waitFor();
+  await page.keyboard.press("Enter");
+  await voice.filter({ hasText: /^First end at [LR] [\d.]+/ }).waitFor();
+  await far("ArrowRight", 20);
+  for (let i = 0; i < 5; ++i) await page.keyboard.press("ArrowRight");
+  // What the line that is begun would have is told before its second end is set.
+  await voice.filter({ hasText: /^[\d.]+ mm$/ }).waitFor();
+  await page.keyboard.press("Enter");
+  await voice.filter({ hasText: /^Distance [\d.]+ mm$/ }).waitFor();
+  const length = parseFloat((await voice.innerText()).match(/[\d.]+/)[0]);
+  assert.equal(await page.locator(".measurement .tag-text").textContent(), `${length.toFixed(1)} mm`);
+  // The ends are 205 px apart on the screen, one 5 px deeper in the ball's curve than the other.
+  const across = 205 / (await pxPerMm(viewer));
+  assert.ok(length >= across - 0.3 && length <= across + 0.5, `${length} mm, not ${across}`);
+
+  await far("ArrowUp", 2);
+  await page.keyboard.press("Enter");
+  await voice.filter({ hasText: /^First end at/ }).waitFor();
+  await page.keyboard.press("Escape");
+  await voice.filter({ hasText: "First end dropped" }).waitFor();
+  await page.keyboard.press("Delete");
+  await page.locator(".measurement").waitFor({ state: "detached" });
+  await page.keyboard.press("Escape");
+  await page.getByText("Click two points").waitFor({ state: "detached" });
+  await page.locator(".key-cursor").waitFor({ state: "detached" });
+  assert.deepEqual((await viewer.scene()).camera, camera, "the keys have moved the camera");
+  await page.keyboard.press("ArrowLeft");
+  await viewer.sceneWith((s) => s.camera.azimuth_deg !== camera.azimuth_deg, "the arrow keys orbiting again");
+  // From the button in the toolbar, too, the keys are the picture's.
+  await viewer.page.getByRole("button", { name: "Measure distances" }).focus();
+  await page.keyboard.press("Enter");
+  await page.keyboard.press("ArrowLeft");
+  await page.locator(".view .key-cursor").waitFor();
 });
 
 test("the scale bar is as long as it says", async (t) => {

@@ -66,15 +66,14 @@ function summary(from) {
 async function measure(browser, [width, height]) {
   const begin = performance.now();
   const viewer = await startViewer([volume, "--size", `${width}x${height}`]);
-  const page = await browser.newPage({ viewport: { width: 1280, height: 720 } });
+  const page = await browser.newPage({ viewport: { width: width + 640, height: height + 360 } });
   await page.addInitScript(watchSocket);
   await page.goto(viewer.url);
   await page.waitForFunction(() => window.voxlumeSpeed.drawn.length > 0, undefined, { polling: 5 });
   const firstPicture_s = (performance.now() - begin) / 1000;
-  // The picture's own area is to be of this size: bars and panels lie around it.
-  const canvas = page.locator("canvas").first();
-  const whole = await canvas.boundingBox();
-  await page.setViewportSize({ width: 1280 + width - Math.round(whole.width), height: 720 + height - Math.round(whole.height) });
+  // The picture is to be of this size whatever bars and panels leave it.
+  const canvas = page.locator(".view canvas").first();
+  await page.addStyleTag({ content: `.view { position: fixed !important; width: ${width}px !important; height: ${height}px !important; }` });
   await page.waitForTimeout(2000);
   const box = await canvas.boundingBox();
   const middle = [box.x + box.width / 2, box.y + box.height / 2];

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { axesOf, byAngles, heightAtTarget_mm, orbited, panned, turned, zoomed } from "../src/geometry/orbit";
-import { orientationLabel } from "../src/geometry/orientation";
+import { formatCoordinate, formatPosition, orientationLabel, parseCoordinate, type Axis } from "../src/geometry/orientation";
 import { heightAtDepth_mm, nearestOnLine, pointAtDepth, project, ray } from "../src/geometry/projection";
 import { add, cross, dot, length, scale, sub, type Vec3 } from "../src/geometry/vec3";
 import type { FrameCamera } from "../src/state/protocol";
@@ -138,5 +138,25 @@ describe("orientation labels", () => {
     expect(orientationLabel([-0.9, -0.43, 0])).toBe("RA");
     expect(orientationLabel([0.1, 0.2, -0.97])).toBe("I");
     expect(orientationLabel([0.5, 0.6, 0.62])).toBe("SPL");
+  });
+});
+
+describe("positions", () => {
+  it("are told by the patient's sides, without a sign", () => {
+    expect(formatPosition([-12.34, 7, 40.25])).toBe("R 12.3  P 7.0  S 40.3 mm");
+    expect(formatPosition([12.34, -7, -40])).toBe("L 12.3  A 7.0  I 40.0 mm");
+  });
+  it("have one letter for 0, whatever it is rounded from", () => {
+    for (const zero of [0, -0, 0.04, -0.04]) expect(formatPosition([zero, zero, zero])).toBe("L 0.0  P 0.0  S 0.0 mm");
+    expect(formatCoordinate(0, -0.06)).toBe("R 0.1");
+  });
+  it("are read as they are written, and as numbers of LPS", () => {
+    for (const axis of [0, 1, 2] as Axis[])
+      for (const mm of [-12.5, 0, 3.1]) expect(parseCoordinate(axis, formatCoordinate(axis, mm))).toBeCloseTo(mm, 9);
+    expect(parseCoordinate(0, "r10,5")).toBe(-10.5);
+    expect(parseCoordinate(1, " -7 ")).toBe(-7);
+  });
+  it("are not read of another axis or of no number", () => {
+    for (const text of ["S 10", "", "L", "L x", "10 mm", "1.2.3"]) expect(parseCoordinate(0, text)).toBeNaN();
   });
 });

@@ -52,3 +52,10 @@ export function formatNumber(value: number, resolution: number): string {
   const text = value.toFixed(digits);
   return digits > 0 ? text.replace(/\.?0+$/, "") : text;
 }
+
+/** A data value with its unit, to a thousandth of the data's range, or to 0.1 HU. */
+export function formatValue(value: number, facts: { hounsfield: boolean; range: readonly [number, number] }): string {
+  const resolution = facts.hounsfield ? 0.1 : (facts.range[1] - facts.range[0]) / 1000;
+  const text = formatNumber(Math.abs(value) < resolution / 2 ? 0 : value, resolution);
+  return facts.hounsfield ? `${text} HU` : text;
+}

@@ -115,6 +115,29 @@ export function orStill(animation: Animation): Animation | null {
   return animation.turntable || animation.tracks.length > 0 || animation.frames !== undefined ? animation : null;
 }
 
+const isOfCamera = ({ field }: Track) => field.startsWith("/camera/");
+
+/** What a turntable moves. */
+const turnedFields = ["/camera/azimuth_deg", "/camera/eye_mm", "/camera/up"];
+
+/** Whether a turntable turns a camera that its keyframes turn as well, or ends before they do. */
+export function turnsTwice(animation: Animation | undefined): boolean {
+  const { turntable, tracks, fps } = animation ?? emptyAnimation;
+  if (!turntable) return false;
+  const turns = ({ field, keys }: Track) =>
+    turnedFields.includes(field) && new Set(keys.map(([, value]) => JSON.stringify(value))).size > 1;
+  const goesOn = ({ keys }: Track) => keys.some(([time]) => time > turntable.seconds + 1 / fps);
+  return tracks.filter(isOfCamera).some((track) => turns(track) || goesOn(track));
+}
+
+/** Without the keyframes of the camera. */
+export function withoutCamera(animation: Animation): Animation {
+  return withTracks(
+    animation,
+    animation.tracks.filter((track) => !isOfCamera(track)),
+  );
+}
+
 /** What may be captured, in the words of the page. */
 export type CapturePart = "camera" | "light" | "transfer" | "clip";
 

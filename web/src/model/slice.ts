@@ -1,3 +1,5 @@
+import type { Axis } from "../geometry/orientation";
+import { add, scale, sub } from "../geometry/vec3";
 import type { Vec3 } from "../state/scene-types";
 
 export type Plane = "axial" | "coronal" | "sagittal";
@@ -10,7 +12,7 @@ export interface PlaneLayout {
   title: string;
   /** The axis that the plane is across, as /api/slice calls it, and its number. */
   axis: "x" | "y" | "z";
-  normal: 0 | 1 | 2;
+  normal: Axis;
   /** Numbers of the axes along columns (to the right) and rows. */
   across: 0 | 1;
   along: 1 | 2;
@@ -60,67 +62,90 @@ export interface SliceHeader {
   offset: number;
 }
 
-/** Where samples lie on a canvas: a rectangle in pixels, every sample a square of `zoom` pixels. */
-export interface SlicePlacement {
-  left: number;
-  top: number;
-  zoom: number;
+export interface Size {
+  width: number;
+  height: number;
 }
 
-/** The slice as large as fits, in the middle. */
-export function fitSlice(header: SliceHeader, width: number, height: number): SlicePlacement {
-  const zoom = Math.min(width / header.width, height / header.height);
-  return { left: (width - zoom * header.width) / 2, top: (height - zoom * header.height) / 2, zoom };
+/** What a pane shows of its plane [CSS px]. */
+export interface PaneView extends Size {
+  /** The point in the pane's middle [LPS mm]. */
+  center_mm: Vec3;
+  pxPerMm: number;
 }
 
-/** The place on the canvas of a point of LPS space, moved into the plane. */
-export function canvasOf(
-  layout: PlaneLayout,
-  header: SliceHeader,
-  placement: SlicePlacement,
-  p: Vec3,
-): [number, number] {
-  const column = (p[layout.across] - header.origin_mm[0]) / header.spacing_mm + 0.5;
-  const row = (p[layout.along] - header.origin_mm[1]) / header.spacing_mm + 0.5;
+/** The scale [CSS px per mm] at which every pane shows its whole plane of the box. */
+export function commonScale(bounds_mm: readonly [Vec3, Vec3], panes: Partial<Record<Plane, Size>>): number {
+  const side = (axis: Axis) => Math.max(bounds_mm[1][axis] - bounds_mm[0][axis], 1e-6);
+  const scales = planeNames.flatMap((plane) => {
+    const pane = panes[plane];
+    const { across, along } = planes[plane];
+    return pane ? [pane.width / side(across), pane.height / side(along)] : [];
+  });
+  return scales.length ? Math.min(...scales) : 1;
+}
+
+const middleOf = (pane: PaneView) => [pane.width / 2, pane.height / 2] as const;
+
+/** The place in a pane of a point, moved into its plane. */
+export function canvasOf(layout: PlaneLayout, pane: PaneView, p: Vec3): [number, number] {
+  const { across, along, flipped } = layout;
+  const { center_mm, pxPerMm } = pane;
+  const [x, y] = middleOf(pane);
   return [
-    placement.left + placement.zoom * column,
-    placement.top + placement.zoom * (layout.flipped ? header.height - row : row),
+    x + (p[across] - center_mm[across]) * pxPerMm,
+    y + (p[along] - center_mm[along]) * (flipped ? -pxPerMm : pxPerMm),
   ];
 }
 
-/** The point of the plane `at_mm` that is seen at a place of the canvas. */
-export function pointOf(
-  layout: PlaneLayout,
-  header: SliceHeader,
-  placement: SlicePlacement,
-  atMm: number,
-  x: number,
-  y: number,
-): Vec3 {
-  const column = (x - placement.left) / placement.zoom;
-  const shown = (y - placement.top) / placement.zoom;
-  const row = layout.flipped ? header.height - shown : shown;
-  const p: [number, number, number] = [0, 0, 0];
+/** The point of the plane at `atMm` that is seen at a place of the pane. */
+export function pointOf(layout: PlaneLayout, pane: PaneView, atMm: number, x: number, y: number): Vec3 {
+  const { across, along, flipped } = layout;
+  const [middleX, middleY] = middleOf(pane);
+  const p: [number, number, number] = [...pane.center_mm];
   p[layout.normal] = atMm;
-  p[layout.across] = header.origin_mm[0] + header.spacing_mm * (column - 0.5);
-  p[layout.along] = header.origin_mm[1] + header.spacing_mm * (row - 0.5);
+  p[across] += (x - middleX) / pane.pxPerMm;
+  p[along] += ((y - middleY) / pane.pxPerMm) * (flipped ? -1 : 1);
   return p;
 }
 
-/** Number of the sample at a point, undefined outside. */
-export function sampleIndex(layout: PlaneLayout, header: SliceHeader, p: Vec3): number | undefined {
-  const column = Math.round((p[layout.across] - header.origin_mm[0]) / header.spacing_mm);
-  const row = Math.round((p[layout.along] - header.origin_mm[1]) / header.spacing_mm);
-  if (column < 0 || row < 0 || column >= header.width || row >= header.height) return undefined;
-  return row * header.width + column;
+/** Where a pane shows the samples of a slice: every one a square. */
+export function slicePlace(layout: PlaneLayout, header: SliceHeader, pane: PaneView) {
+  const first: [number, number, number] = [0, 0, 0];
+  first[layout.across] = header.origin_mm[0] - header.spacing_mm / 2;
+  first[layout.along] = header.origin_mm[1] - header.spacing_mm / 2;
+  const [left, edge] = canvasOf(layout, pane, first);
+  const sample = header.spacing_mm * pane.pxPerMm;
+  const height = header.height * sample;
+  return { left, top: layout.flipped ? edge - height : edge, width: header.width * sample, height };
 }
 
-/** A position as "R 12.5  A 3.0  S 40.2": letters tell the side, so that no sign has to be remembered. */
-export function describePosition(p: Vec3): string {
-  const sides = [
-    ["R", "L"],
-    ["A", "P"],
-    ["I", "S"],
-  ] as const;
-  return p.map((x, i) => `${sides[i]![x < 0 ? 0 : 1]} ${Math.abs(x).toFixed(1)}`).join("  ");
+/** Middle and scale of all panes; zoom 1 shows all of every plane. */
+export interface Framing {
+  center_mm: Vec3;
+  zoom: number;
+}
+
+export const mostZoom = 64;
+
+/** Zoomed by `factor` about a point, which stays where it is seen; null: all is seen again. */
+export function zoomedFraming(from: Framing, factor: number, about: Vec3): Framing | null {
+  const zoom = Math.min(mostZoom, from.zoom * factor);
+  if (zoom <= 1) return null;
+  return { zoom, center_mm: add(about, scale(sub(from.center_mm, about), from.zoom / zoom)) };
+}
+
+/** Moved so that what a pane shows follows a drag of (dx, dy) [CSS px]; the middle stays in the box. */
+export function pannedFraming(
+  from: Framing,
+  layout: PlaneLayout,
+  pxPerMm: number,
+  [dx, dy]: readonly [number, number],
+  [lo, hi]: readonly [Vec3, Vec3],
+): Framing {
+  const moved: [number, number, number] = [...from.center_mm];
+  moved[layout.across] -= dx / pxPerMm;
+  moved[layout.along] -= (dy / pxPerMm) * (layout.flipped ? -1 : 1);
+  const kept = moved.map((mm, axis) => Math.min(hi[axis]!, Math.max(lo[axis]!, mm)));
+  return { ...from, center_mm: kept as unknown as Vec3 };
 }

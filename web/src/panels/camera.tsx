@@ -5,8 +5,20 @@ import { frame } from "../state/frame";
 import { edit, newGesture, scene } from "../state/scene";
 import type { Vec3 } from "../state/scene-types";
 import { showToast } from "../ui/toast";
-import { Button, Field, NumberInput, Section, Segmented, Slider } from "../ui/controls";
+import { Button, Field, NumberInput, Section, Segmented } from "../ui/controls";
 import { picking, pickPoint } from "../view/pick";
+import { numberFields } from "./number-fields";
+
+/** Name, range, unit and step of the camera's numbers. */
+const CameraNumber = numberFields("/camera", {
+  vertical_fov_deg: { label: "Field of view", hint: "Vertical", unit: "°", min: 5, max: 120, hardMin: 0.1, hardMax: 170, digits: 1, initial: 30 },
+  zoom: { label: "Zoom", min: 0.1, max: 20, hardMin: 1e-4, hardMax: 1e6, logarithmic: true, digits: 3, initial: 1 },
+  azimuth_deg: { label: "Azimuth", hint: "0 is in front of the patient, 90 at the patient's left", unit: "°", min: -180, max: 180, hardMin: -36000, hardMax: 36000, digits: 1, initial: 0 },
+  elevation_deg: { label: "Elevation", unit: "°", min: -90, max: 90, digits: 1, initial: 0 },
+  roll_deg: { label: "Roll", hint: "Clockwise turn of the camera; a double click on the word takes it back", unit: "°", min: -180, max: 180, digits: 1, initial: 0 },
+  aperture_radius_mm: { label: "Aperture radius", hint: "0: all is sharp", unit: "mm", min: 0, max: 30, hardMax: 1e6, step: 0.1, digits: 2, initial: 0 },
+  focus_mm: { label: "Focus distance", hint: "Of the sharp plane from the eye", unit: "mm", min: 1, max: 1000, hardMax: 1e9, digits: 1 },
+});
 
 /** How far a point is from the eye along the view. */
 function depthOf(p: Vec3): number | null {
@@ -27,7 +39,6 @@ export function CameraPanel() {
   if (!of) return null;
   const { camera } = of;
   const target = camera.target_mm ?? [0, 0, 0];
-  const set = (name: string) => (value: number, gesture: string) => edit([[`/camera/${name}`, value]], gesture);
   const orthographic = camera.projection === "orthographic";
   const targetDepth = depthOf(target);
   return (
@@ -42,32 +53,8 @@ export function CameraPanel() {
           ]}
           onChange={(projection) => edit([["/camera/projection", projection]])}
         />
-        <Slider
-          label="Field of view"
-          hint="Vertical"
-          unit="°"
-          min={5}
-          max={120}
-          hardMin={0.1}
-          hardMax={170}
-          digits={1}
-          initial={30}
-          disabled={orthographic}
-          value={camera.vertical_fov_deg}
-          onChange={set("vertical_fov_deg")}
-        />
-        <Slider
-          label="Zoom"
-          min={0.1}
-          max={20}
-          hardMin={1e-4}
-          hardMax={1e6}
-          logarithmic
-          digits={3}
-          initial={1}
-          value={camera.zoom}
-          onChange={set("zoom")}
-        />
+        <CameraNumber of={camera} name="vertical_fov_deg" disabled={orthographic} />
+        <CameraNumber of={camera} name="zoom" />
       </Section>
       <Section title="View">
         {camera.eye_mm ? (
@@ -91,48 +78,17 @@ export function CameraPanel() {
           </>
         ) : (
           <>
-            <Slider
-              label="Azimuth"
-              hint="0 is in front of the patient, 90 at the patient's left"
-              unit="°"
-              min={-180}
-              max={180}
-              hardMin={-36000}
-              hardMax={36000}
-              digits={1}
-              initial={0}
-              value={wrapDegrees(camera.azimuth_deg)}
-              onChange={set("azimuth_deg")}
-            />
-            <Slider
-              label="Elevation"
-              unit="°"
-              min={-90}
-              max={90}
-              digits={1}
-              initial={0}
-              value={camera.elevation_deg}
-              onChange={set("elevation_deg")}
-            />
-            <Slider
-              label="Roll"
-              hint="Clockwise turn of the camera; a double click on the word takes it back"
-              unit="°"
-              min={-180}
-              max={180}
-              digits={1}
-              initial={0}
-              value={wrapDegrees(camera.roll_deg)}
-              onChange={set("roll_deg")}
-            />
+            <CameraNumber name="azimuth_deg" value={wrapDegrees(camera.azimuth_deg)} />
+            <CameraNumber of={camera} name="elevation_deg" />
+            <CameraNumber name="roll_deg" value={wrapDegrees(camera.roll_deg)} />
           </>
         )}
-        <Field label="Target" hint="The point looked at: left, posterior, superior [mm]">
-          {[0, 1, 2].map((i) => (
+        <Field label="Target" hint="The point looked at, mm toward the patient's sides: R or L, A or P, I or S">
+          {([0, 1, 2] as const).map((i) => (
             <NumberInput
               key={i}
               label={`Target ${"xyz"[i]}`}
-              digits={1}
+              axis={i}
               value={target[i]!}
               onChange={(value, gesture) =>
                 edit([["/camera/target_mm", target.map((x, k) => (k === i ? value : x))]], gesture)
@@ -154,31 +110,8 @@ export function CameraPanel() {
         </div>
       </Section>
       <Section title="Depth of field">
-        <Slider
-          label="Aperture radius"
-          hint="0: all is sharp"
-          unit="mm"
-          min={0}
-          max={30}
-          hardMax={1e6}
-          step={0.1}
-          digits={2}
-          initial={0}
-          value={camera.aperture_radius_mm}
-          onChange={set("aperture_radius_mm")}
-        />
-        <Slider
-          label="Focus distance"
-          hint="Of the sharp plane from the eye"
-          unit="mm"
-          min={1}
-          max={Math.max(1000, 2 * (targetDepth ?? 500))}
-          hardMax={1e9}
-          digits={1}
-          disabled={camera.aperture_radius_mm === 0}
-          value={camera.focus_mm ?? targetDepth ?? 0}
-          onChange={set("focus_mm")}
-        />
+        <CameraNumber of={camera} name="aperture_radius_mm" />
+        <CameraNumber name="focus_mm" max={Math.max(1000, 2 * (targetDepth ?? 500))} value={camera.focus_mm ?? targetDepth ?? 0} disabled={camera.aperture_radius_mm === 0} />
         <div class="row-actions">
           <Button
             primary={picking.value}

@@ -1,4 +1,5 @@
 import { useEffect } from "preact/hooks";
+import type { Axis } from "../geometry/orientation";
 import { edit, newGesture, scene } from "../state/scene";
 import type { Clip } from "../state/scene-types";
 import { clipHandles } from "../state/tools";
@@ -53,11 +54,11 @@ export function ClipPanel() {
             key={`${key}${end}`}
             label={end === 0 ? lower : upper}
             unit="mm"
+            axis={axis as Axis}
             min={lo}
             max={hi}
             hardMin={-1e12}
             hardMax={1e12}
-            digits={1}
             initial={end === 0 ? lo : hi}
             disabled={!clip}
             value={Math.min(Math.max(clip?.[key][end] ?? [lo, hi][end]!, lo), hi)}

@@ -3,8 +3,35 @@ import { toHex } from "../color";
 import { edit, newGesture, scene } from "../state/scene";
 import { hello } from "../state/session";
 import type { Color, NamedMaterial, Scene } from "../state/scene-types";
-import { Button, ColorField, IconButton, Section, Select, Slider, Toggle } from "../ui/controls";
+import { Button, ColorField, IconButton, Section, Select, Toggle } from "../ui/controls";
 import { Disclosure } from "../ui/disclosure";
+import { numberFields } from "./number-fields";
+
+/** Name, range and step of the numbers of how all matter scatters. */
+const MaterialNumber = numberFields("/material", {
+  gradient_factor: { label: "Gradient factor", hint: "How soon a gradient makes a surface", min: 0, max: 3, hardMax: 1000, step: 0.01, initial: 0.5 },
+  roughness: { label: "Roughness", min: 0, max: 1, step: 0.01, initial: 0.4 },
+  specular: { label: "Specular", hint: "Reflectance at normal incidence is 0.08 times this", min: 0, max: 1, step: 0.01, initial: 0.5 },
+  anisotropy: { label: "Anisotropy", hint: "Of the medium: above 0 light goes on, below 0 back", min: -0.99, max: 0.99, step: 0.01, initial: 0 },
+  self_occlusion: { label: "Self-occlusion", hint: "Below 1 brightens what shadows itself; 1 is physical", min: 0.01, max: 1, step: 0.01, initial: 1 },
+  highlight: { label: "Highlight", min: 0, max: 10, hardMax: 1000, step: 0.05, initial: 1 },
+  shininess: { label: "Shininess", min: 1, max: 500, hardMin: 0, hardMax: 10000, logarithmic: true, digits: 0, initial: 40 },
+});
+
+/** The same of one named material, which may leave each of them to what it is like. */
+const coefficients = {
+  opacity: { label: "Opacity", min: 0, max: 1, step: 0.01, initial: 0.9 },
+  roughness: { label: "Roughness", min: 0, max: 1, step: 0.01, initial: 0.4 },
+  metallic: { label: "Metallic", min: 0, max: 1, step: 0.01, initial: 1 },
+  specular: { label: "Specular", min: 0, max: 1, step: 0.01, initial: 0.5 },
+  anisotropy: { label: "Anisotropy", min: -0.99, max: 0.99, step: 0.01, initial: 0.5 },
+  surface_share: { label: "Surface share", min: 0, max: 1, step: 0.01, initial: 1 },
+  transmission: { label: "Transmission", min: 0, max: 1, step: 0.01, initial: 1 },
+  ior: { label: "Index of refraction", min: 1, max: 4, step: 0.01, initial: 1.5 },
+  diffuse_roughness: { label: "Diffuse roughness", min: 0, max: 1, step: 0.01, initial: 0.5 },
+};
+const CoefficientNumber = numberFields("/materials", coefficients);
+const coefficientNames = Object.keys(coefficients) as (keyof typeof coefficients)[];
 
 /** How matter scatters. */
 export function MaterialPanel() {
@@ -25,7 +52,6 @@ export function MaterialPanel() {
 function ShadingFields({ of }: { of: Scene }) {
   const m = of.material;
   const blinn = m.shading === "blinn-phong";
-  const set = (name: string) => (value: number, gesture: string) => edit([[`/material/${name}`, value]], gesture);
   return (
     <>
       <Select
@@ -48,82 +74,15 @@ function ShadingFields({ of }: { of: Scene }) {
         ]}
         onChange={(shading) => edit([["/material/shading", shading]])}
       />
-      <Slider
-        label="Gradient factor"
-        hint="How soon a gradient makes a surface"
-        min={0}
-        max={3}
-        hardMax={1000}
-        step={0.01}
-        initial={0.5}
-        value={m.gradient_factor}
-        onChange={set("gradient_factor")}
-      />
-      <Slider
-        label="Roughness"
-        min={0}
-        max={1}
-        step={0.01}
-        initial={0.4}
-        disabled={blinn}
-        value={m.roughness}
-        onChange={set("roughness")}
-      />
-      <Slider
-        label="Specular"
-        hint="Reflectance at normal incidence is 0.08 times this"
-        min={0}
-        max={1}
-        step={0.01}
-        initial={0.5}
-        disabled={blinn}
-        value={m.specular}
-        onChange={set("specular")}
-      />
-      <Slider
-        label="Anisotropy"
-        hint="Of the medium: above 0 light goes on, below 0 back"
-        min={-0.99}
-        max={0.99}
-        step={0.01}
-        initial={0}
-        value={m.anisotropy}
-        onChange={set("anisotropy")}
-      />
-      <Slider
-        label="Self-occlusion"
-        hint="Below 1 brightens what shadows itself; 1 is physical"
-        min={0.01}
-        max={1}
-        step={0.01}
-        initial={1}
-        value={m.self_occlusion}
-        onChange={set("self_occlusion")}
-      />
+      <MaterialNumber of={m} name="gradient_factor" />
+      <MaterialNumber of={m} name="roughness" disabled={blinn} />
+      <MaterialNumber of={m} name="specular" disabled={blinn} />
+      <MaterialNumber of={m} name="anisotropy" />
+      <MaterialNumber of={m} name="self_occlusion" />
       {blinn && (
         <>
-          <Slider
-            label="Highlight"
-            min={0}
-            max={10}
-            hardMax={1000}
-            step={0.05}
-            initial={1}
-            value={m.highlight}
-            onChange={set("highlight")}
-          />
-          <Slider
-            label="Shininess"
-            min={1}
-            max={500}
-            hardMin={0}
-            hardMax={10000}
-            logarithmic
-            digits={0}
-            initial={40}
-            value={m.shininess}
-            onChange={set("shininess")}
-          />
+          <MaterialNumber of={m} name="highlight" />
+          <MaterialNumber of={m} name="shininess" />
         </>
       )}
       <Disclosure label="More">
@@ -167,18 +126,6 @@ function ShadingFields({ of }: { of: Scene }) {
   );
 }
 
-const numbers: readonly { key: string; label: string; min: number; max: number; initial: number }[] = [
-  { key: "opacity", label: "Opacity", min: 0, max: 1, initial: 0.9 },
-  { key: "roughness", label: "Roughness", min: 0, max: 1, initial: 0.4 },
-  { key: "metallic", label: "Metallic", min: 0, max: 1, initial: 1 },
-  { key: "specular", label: "Specular", min: 0, max: 1, initial: 0.5 },
-  { key: "anisotropy", label: "Anisotropy", min: -0.99, max: 0.99, initial: 0.5 },
-  { key: "surface_share", label: "Surface share", min: 0, max: 1, initial: 1 },
-  { key: "transmission", label: "Transmission", min: 0, max: 1, initial: 1 },
-  { key: "ior", label: "Index of refraction", min: 1, max: 4, initial: 1.5 },
-  { key: "diffuse_roughness", label: "Diffuse roughness", min: 0, max: 1, initial: 0.5 },
-];
-
 /** Materials of the scene, for labels and rules to name. */
 function NamedMaterials({ of }: { of: Scene }) {
   const library = hello.value?.materials ?? [];
@@ -215,8 +162,8 @@ function MaterialCard({ of, material, index }: { of: Scene; material: NamedMater
   const used = JSON.stringify(of.transfer.rules).includes(`"material":${JSON.stringify(material.name)}`);
   const library = hello.value?.materials.find((one) => one.name === material.like);
   const color = material["color"] as Color | undefined;
-  const given = numbers.filter(({ key }) => material[key] !== undefined);
-  const open = numbers.filter(({ key }) => material[key] === undefined);
+  const given = coefficientNames.filter((name) => material[name] !== undefined);
+  const open = coefficientNames.filter((name) => material[name] === undefined);
   return (
     <div class="panel-card">
       <header>
@@ -234,22 +181,15 @@ function MaterialCard({ of, material, index }: { of: Scene; material: NamedMater
         value={color ? toHex(color) : (library?.color ?? "#cccccc")}
         onChange={(value, gesture) => edit([[`${at}/color`, value]], gesture)}
       />
-      {given.map(({ key, label, min, max }) => (
-        <div class="optional" key={key}>
+      {given.map((name) => (
+        <div class="optional" key={name}>
           <div class="optional-body">
-            <Slider
-              label={label}
-              min={min}
-              max={max}
-              step={0.01}
-              value={material[key] as number}
-              onChange={(value, gesture) => edit([[`${at}/${key}`, value]], gesture)}
-            />
+            <CoefficientNumber at={at} name={name} value={material[name] as number} />
           </div>
           <IconButton
             icon="close"
-            label={`${label} as ${material.like || "the scene"} has it`}
-            onClick={() => edit([[`${at}/${key}`, null]])}
+            label={`${coefficients[name].label} as ${material.like || "the scene"} has it`}
+            onClick={() => edit([[`${at}/${name}`, null]])}
           />
         </div>
       ))}
@@ -257,8 +197,8 @@ function MaterialCard({ of, material, index }: { of: Scene; material: NamedMater
         <Select
           label="Set"
           value=""
-          options={[{ value: "", label: "…" }, ...open.map(({ key, label }) => ({ value: key, label }))]}
-          onChange={(key) => key && edit([[`${at}/${key}`, numbers.find((n) => n.key === key)!.initial]])}
+          options={[{ value: "", label: "…" }, ...open.map((name) => ({ value: name, label: coefficients[name].label }))]}
+          onChange={(name) => name && edit([[`${at}/${name}`, coefficients[name].initial]])}
         />
       )}
     </div>

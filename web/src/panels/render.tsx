@@ -1,7 +1,19 @@
 import { setSplit, hello, split } from "../state/session";
 import { edit, scene } from "../state/scene";
-import { Field, NumberInput, Section, Segmented, Select, Slider, Toggle } from "../ui/controls";
+import { Field, NumberInput, Section, Segmented, Select, Toggle } from "../ui/controls";
 import { Disclosure } from "../ui/disclosure";
+import { numberFields } from "./number-fields";
+
+/** Name, range, unit and step of what the picture and its rendering count. */
+const ImageNumber = numberFields("/image", {
+  exposure_ev: { label: "Exposure", unit: "EV", min: -5, max: 5, hardMin: -64, hardMax: 64, step: 0.05, initial: 0 },
+  spp: { label: "Samples a pixel", hint: "The still picture is done after so many", min: 1, max: 16384, hardMax: 1e9, logarithmic: true, digits: 0, whole: true },
+  noise: { label: "Noise", hint: "Mean of standard error over luminance", min: 0.001, max: 0.3, hardMax: 1e6, logarithmic: true, digits: 4 },
+});
+const RenderNumber = numberFields("/render", {
+  max_scatter: { label: "Scatterings of a path", hint: "1 is direct light; more is softer, and slower", min: 1, max: 64, hardMax: 1e6, logarithmic: true, digits: 0, whole: true },
+  light_samples: { label: "Shadow rays", hint: "At the first scattering of a path", min: 1, max: 64, logarithmic: true, digits: 0, whole: true },
+});
 
 const integrators = [
   { value: "path", label: "Path tracing" },
@@ -24,18 +36,7 @@ export function RenderPanel() {
   return (
     <>
       <Section title="Picture">
-        <Slider
-          label="Exposure"
-          unit="EV"
-          min={-5}
-          max={5}
-          hardMin={-64}
-          hardMax={64}
-          step={0.05}
-          initial={0}
-          value={image.exposure_ev}
-          onChange={(value, gesture) => edit([["/image/exposure_ev", value]], gesture)}
-        />
+        <ImageNumber of={image} name="exposure_ev" />
         <Segmented
           label="Tone curve"
           value={image.tone_curve}
@@ -68,17 +69,7 @@ export function RenderPanel() {
         />
       </Section>
       <Section title="Quality">
-        <Slider
-          label="Samples a pixel"
-          hint="The still picture is done after so many"
-          min={1}
-          max={16384}
-          hardMax={1e9}
-          logarithmic
-          digits={0}
-          value={image.spp ?? 16384}
-          onChange={(value, gesture) => edit([["/image/spp", Math.max(1, Math.round(value))]], gesture)}
-        />
+        <ImageNumber name="spp" value={image.spp ?? 16384} />
         <Toggle
           label="Stop at a noise"
           hint="Or when the noise is this low"
@@ -86,30 +77,9 @@ export function RenderPanel() {
           onChange={(on) => edit([["/image/noise", on ? 0.02 : null]])}
         />
         {image.noise !== undefined && (
-          <Slider
-            label="Noise"
-            hint="Mean of standard error over luminance"
-            min={0.001}
-            max={0.3}
-            hardMax={1e6}
-            logarithmic
-            digits={4}
-            value={image.noise}
-            onChange={(value, gesture) => edit([["/image/noise", value]], gesture)}
-          />
+          <ImageNumber of={image} name="noise" />
         )}
-        <Slider
-          label="Scatterings of a path"
-          hint="1 is direct light; more is softer, and slower"
-          min={1}
-          max={64}
-          hardMax={1e6}
-          logarithmic
-          digits={0}
-          disabled={render.max_scatter === 0}
-          value={render.max_scatter || 64}
-          onChange={(value, gesture) => edit([["/render/max_scatter", Math.max(1, Math.round(value))]], gesture)}
-        />
+        <RenderNumber name="max_scatter" value={render.max_scatter || 64} disabled={render.max_scatter === 0} />
         <Toggle
           label="Unlimited scatterings"
           value={render.max_scatter === 0}
@@ -122,16 +92,7 @@ export function RenderPanel() {
             options={integrators}
             onChange={(name) => edit([["/render/integrator", name]])}
           />
-          <Slider
-            label="Shadow rays"
-            hint="At the first scattering of a path"
-            min={1}
-            max={64}
-            logarithmic
-            digits={0}
-            value={render.light_samples}
-            onChange={(value, gesture) => edit([["/render/light_samples", Math.max(1, Math.round(value))]], gesture)}
-          />
+          <RenderNumber of={render} name="light_samples" />
           <Field label="Seed">
             <NumberInput
               label="Seed"

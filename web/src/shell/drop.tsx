@@ -1,9 +1,21 @@
 import { signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { Icon } from "../ui/icons";
+import { showToast } from "../ui/toast";
+import { droppedFiles } from "./dropped";
 import { openFiles } from "./files";
 
 const over = signal(false);
+
+async function openDropped(transfer: DataTransfer): Promise<void> {
+  try {
+    const { files, folder } = await droppedFiles(transfer);
+    if (files.length === 0) showToast({ text: "There are no files in what was dropped" });
+    await openFiles(files, folder);
+  } catch (error) {
+    showToast({ tone: "error", text: `What was dropped cannot be read: ${(error as Error).message}` });
+  }
+}
 
 /** Takes files that are dropped anywhere on the page. */
 export function DropTarget() {
@@ -22,7 +34,7 @@ export function DropTarget() {
       over.value = false;
       if (!hasFiles(event)) return;
       event.preventDefault();
-      void openFiles([...event.dataTransfer!.files]);
+      void openDropped(event.dataTransfer!);
     };
     addEventListener("dragenter", drag);
     addEventListener("dragover", drag);
@@ -41,7 +53,7 @@ export function DropTarget() {
       <div>
         <Icon name="upload" size={28} />
         <strong>Drop to open</strong>
-        <span>A volume, or a scene (.json)</span>
+        <span>A volume, the folder or the files of a DICOM series, or a scene (.json)</span>
       </div>
     </div>
   );

@@ -25,6 +25,9 @@ export function formatBytes(bytes: number): string {
   return `${size < 10 ? size.toFixed(1) : Math.round(size)} ${unit}`;
 }
 
+/** Names that slices of a series have: DICOM often without an extension, or a number for one; TIFF. */
+const kSlice = /(^[^.]+|\.(\d+|dcm|dicom|ima|tiff?))$/i;
+
 /** The files below the folder the viewer was started with; those of `kinds` (volumes and scenes) can be chosen, which
  * opens them unless `onChoose` is given, and folders entered. */
 export function FileBrowser({
@@ -51,11 +54,12 @@ export function FileBrowser({
     };
   }, [path]);
   const parts = path.split("/").filter(Boolean);
-  const choose = (entry: Entry) => {
-    if (entry.kind === "folder") return setPath(entry.path);
-    onChoose(entry.path);
+  const take = (chosen: string) => {
+    onChoose(chosen);
     onOpen?.();
   };
+  const choose = (entry: Entry) => (entry.kind === "folder" ? setPath(entry.path) : take(entry.path));
+  const slices = entries?.filter((entry) => entry.kind !== "folder" && kSlice.test(entry.name)).length ?? 0;
   const order = (entry: Entry) => (entry.kind === "folder" ? 0 : kinds.includes(entry.kind) ? 1 : 2);
   const sorted = entries
     ?.slice()
@@ -74,6 +78,14 @@ export function FileBrowser({
             </button>
           </>
         ))}
+        {slices > 1 && (
+          <>
+            <span class="spring" />
+            <button type="button" title="The files of this folder as the slices of one volume" onClick={() => take(path)}>
+              Open {slices} slices
+            </button>
+          </>
+        )}
       </nav>
       <div class="entries">
         {failure && <p class="failure">{failure}</p>}

@@ -5,31 +5,50 @@ import { decodeScene } from "./link";
 
 /** Opening what the user drops, picks or follows a link to. */
 
+/** What is on its way to the server. */
 export interface Upload {
+  /** Of the file, or of what the files are together. */
   name: string;
+  files: number;
+  /** Files that are there. */
+  done: number;
   bytes: number;
   sent: number;
   cancel(): void;
 }
 
-/** The file on its way to the server; null: none. */
+/** Null: nothing is on its way. */
 export const upload = signal<Upload | null>(null);
 
-/** PUT with progress, which fetch does not tell. Resolves to the path to open. */
-function send(file: File): Promise<string> {
+/** A file and its name among those that it comes with. */
+export interface NamedFile {
+  name: string;
+  file: File;
+}
+
+/** As many files of a set as the server takes. */
+const kMostFiles = 20000;
+
+/** PUT with progress, which fetch does not tell. Resolves to the path to open; rejects with null where it was cancelled. */
+function send({ name, file }: NamedFile, set: Record<string, string>): Promise<string> {
   return new Promise((resolve, reject) => {
     const request = new XMLHttpRequest();
-    request.open("PUT", `api/upload?name=${encodeURIComponent(file.name)}`);
-    request.upload.onprogress = (event) => {
-      if (upload.value) upload.value = { ...upload.value, sent: event.loaded };
+    const before = upload.peek()!.sent;
+    const advance = (bytes: number, done = 0) => {
+      const now = upload.peek();
+      if (now) upload.value = { ...now, sent: before + bytes, done: now.done + done };
     };
+    request.open("PUT", `api/upload?${new URLSearchParams({ ...set, name })}`);
+    request.upload.onprogress = (event) => advance(event.loaded);
     request.onload = () => {
-      if (request.status === 200) resolve((JSON.parse(request.responseText) as { path: string }).path);
-      else reject(new Error(request.responseText.trim() || `the server answered ${request.status}`));
+      if (request.status !== 200)
+        return reject(new Error(request.responseText.trim() || `the server answered ${request.status}`));
+      advance(file.size, 1);
+      resolve((JSON.parse(request.responseText) as { path: string }).path);
     };
     request.onerror = () => reject(new Error("the connection was lost. Is the viewer still running?"));
     request.onabort = () => reject(null);
-    upload.value = { name: file.name, bytes: file.size, sent: 0, cancel: () => request.abort() };
+    upload.value = { ...upload.peek()!, cancel: () => request.abort() };
     request.send(file);
   });
 }
@@ -43,38 +62,49 @@ async function openSceneFile(file: File): Promise<void> {
   }
 }
 
-/** Headers of formats whose voxels are in a second file. */
-const kHeaders = /\.(mhd|nhdr|hdr)$/i;
-
-/** Uploads files and opens the one that is the volume: of several, the header. */
-export async function openFiles(files: readonly File[]): Promise<void> {
+/** Uploads files, which are one volume together where they are several: a header and its voxels, or the slices of a
+ * series, and opens that. `folder` is what they are called together. */
+export async function openFiles(files: readonly NamedFile[], folder = "series"): Promise<void> {
   const first = files[0];
-  if (!first) return;
-  if (files.length === 1 && /\.json$/i.test(first.name)) return openSceneFile(first);
-  if (files.length > 1 && files.every((file) => /\.(dcm|ima)$|^[^.]+$/i.test(file.name)))
-    return showToast({
-      tone: "warning",
-      text: "A DICOM series is opened from its folder: start `voxlume view` with that folder, or convert it to one file first.",
-    });
+  if (!first || upload.peek()) return;
+  if (files.length === 1 && /\.json$/i.test(first.name)) return openSceneFile(first.file);
+  if (files.length > kMostFiles)
+    return showToast({ tone: "error", text: `These are ${files.length} files; expected at most ${kMostFiles}` });
+  const set: Record<string, string> = files.length > 1 ? { set: crypto.getRandomValues(new Uint32Array(4)).join("-"), folder } : {};
+  const name = files.length > 1 ? folder : first.name;
+  const bytes = files.reduce((sum, { file }) => sum + file.size, 0);
+  upload.value = { name, files: files.length, done: 0, bytes, sent: 0, cancel: () => undefined };
   try {
-    const paths = new Map<string, string>();
-    for (const file of files) paths.set(file.name, await send(file));
-    const main = files.find((file) => kHeaders.test(file.name)) ?? first;
-    openPath(paths.get(main.name)!);
+    let path = "";
+    for (const file of files) path = await send(file, set);
+    openPath(path);
   } catch (error) {
-    if (error) showToast({ tone: "error", text: `${upload.value?.name}: ${(error as Error).message}` });
+    if (error) showToast({ tone: "error", text: `${name}: ${(error as Error).message}` });
   } finally {
     upload.value = null;
   }
 }
 
-/** Lets the user choose files. */
-export function pickFiles(accept = ""): void {
+/** "scan/CT/1.dcm" is CT-1.dcm of scan. What is hidden, as some systems put into folders, is left out. */
+export function namedInFolder(files: readonly { path: string; file: File }[]): NamedFile[] {
+  return files
+    .map(({ path, file }) => ({ name: path.split("/").slice(1).join("-"), hidden: /(^|\/)\./.test(path), file }))
+    .filter(({ hidden }) => !hidden);
+}
+
+/** Lets the user choose files, or the files of a folder. */
+export function pickFiles({ accept = "", folder = false } = {}): void {
   const input = document.createElement("input");
   input.type = "file";
   input.multiple = true;
   input.accept = accept;
-  input.onchange = () => void openFiles([...(input.files ?? [])]);
+  input.webkitdirectory = folder;
+  input.onchange = () => {
+    const files = [...(input.files ?? [])];
+    if (!folder) return void openFiles(files.map((file) => ({ name: file.name, file })));
+    const inFolder = files.map((file) => ({ path: file.webkitRelativePath, file }));
+    void openFiles(namedInFolder(inFolder), inFolder[0]?.path.split("/")[0]);
+  };
   input.click();
 }
 

@@ -22,28 +22,54 @@ function baseName(): string {
   );
 }
 
-/** Downloads /api/PATH; tells what went wrong. */
-async function download(path: string, name: string): Promise<void> {
+/** GET of /api/PATH; null, and told, where that fails. */
+async function fetched(path: string, name: string): Promise<Response | null> {
   try {
     const response = await fetch(path);
     if (!response.ok) throw new Error((await response.text()).trim() || `${response.status}`);
-    saveBlob(await response.blob(), name);
+    return response;
   } catch (error) {
     showToast({ tone: "error", text: `${name} could not be saved: ${(error as Error).message}` });
+    return null;
   }
+}
+
+async function download(path: string, name: string): Promise<void> {
+  const response = await fetched(path, name);
+  if (response) saveBlob(await response.blob(), name);
+}
+
+/** Uploads that the user was told of. */
+const told = new Set<string>();
+
+/** Says once of every upload that the scene file names it and does not hold it. */
+function tellOfUploads(response: Response): void {
+  const beside = JSON.parse(response.headers.get("X-Beside") ?? "[]") as string[];
+  if (beside.every((name) => told.has(name))) return;
+  for (const name of beside) told.add(name);
+  showToast({
+    text: `The scene file does not contain ${beside.join(", ")}: to render it, put ${beside.length > 1 ? "these" : "it"} beside the scene file.`,
+  });
 }
 
 export const savePng = () => download("api/picture.png", `${baseName()}.png`);
 export const saveExr = () => download("api/picture.exr", `${baseName()}.exr`);
-export const saveScene = () => download("api/scene.json", `${baseName()}-scene.json`);
 
-/** Copies a link that opens this scene: for whoever may use this viewer and has the same volume at the same path.
+export async function saveScene(): Promise<void> {
+  const name = `${baseName()}-scene.json`;
+  const response = await fetched("api/scene.json", name);
+  if (!response) return;
+  saveBlob(await response.blob(), name);
+  tellOfUploads(response);
+}
+
+/** Copies a link that opens this scene: for whoever may use this viewer, while what was uploaded is there.
  * Where the browser does not let pages copy (plain HTTP to another machine) the link goes into the address bar. */
 export async function copyLink(): Promise<void> {
-  const now = scene.peek();
-  if (!now) return;
+  const response = await fetched("api/scene.json", "The link");
+  if (!response) return;
   const address = new URL(document.baseURI);
-  address.hash = await encodeScene(now);
+  address.hash = await encodeScene(await response.json());
   try {
     await navigator.clipboard.writeText(address.href);
     showToast({ text: "Link to this scene copied" });

@@ -37,6 +37,7 @@ export function Loading() {
         <div class="card-title">
           <strong>Uploading {sending.name}</strong>
           <span>
+            {sending.files > 1 && `${sending.done} of ${sending.files} files, `}
             {formatBytes(sending.sent)} of {formatBytes(sending.bytes)}
           </span>
           <IconButton icon="close" label="Cancel the upload" onClick={sending.cancel} />

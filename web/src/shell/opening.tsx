@@ -42,15 +42,18 @@ function Choices({ onOpen }: { onOpen?(): void }) {
 }
 
 function FromHere({ onOpen }: { onOpen?(): void }) {
-  const pick = () => {
-    pickFiles();
+  const pick = (folder: boolean) => () => {
+    pickFiles({ folder });
     onOpen?.();
   };
   return (
     <div class="from-here">
       <Icon name="upload" />
-      <span>Drop a volume or scene anywhere on this page, or</span>
-      <Button onClick={pick}>choose a file</Button>
+      <span>Drop a volume, a DICOM folder or a scene anywhere on this page, or choose</span>
+      <Button title="Several where they are one volume: slices, or a header and its voxels" onClick={pick(false)}>
+        files
+      </Button>
+      <Button onClick={pick(true)}>a folder</Button>
     </div>
   );
 }

@@ -9,7 +9,9 @@ import {
   toggleProjection,
   zoomBy,
 } from "../view/camera-control";
-import { measuring, removeLast } from "../view/measure";
+import { measuring, removeLast } from "../view/distances";
+import { cursorStep, moveKeyCursor, setEndAtKeyCursor } from "../view/key-cursor";
+import { picturePane } from "../view/measure";
 import { endTool, toggleClip, toggleLights, toggleMeasuring, toggleSplit, toolInUse } from "../view/toolbar";
 import { helpShown, toggleFullscreen, toggleSlices } from "./page-state";
 import { copyLink, savePng } from "./keep";
@@ -35,6 +37,9 @@ const plain = (event: KeyboardEvent) =>
 const key = (name: string) => (event: KeyboardEvent) => event.key.toLowerCase() === name && plain(event);
 const control = (name: string, shift: boolean) => (event: KeyboardEvent) =>
   event.key.toLowerCase() === name && (event.ctrlKey || event.metaKey) && event.shiftKey === shift;
+/** What Enter presses itself. */
+const isControl = (target: EventTarget | null) =>
+  target instanceof Element && target.closest("button, a, [role=button], [role=slider]") !== null;
 const arrows: Record<string, readonly [number, number]> = {
   ArrowLeft: [-1, 0],
   ArrowRight: [1, 0],
@@ -51,6 +56,31 @@ const kRoll_deg = 5;
 const kTogether_ms = 800;
 
 export const shortcuts: readonly Shortcut[] = [
+  { keys: ["M"], what: "Measure distances", group: "Tools", matches: key("m"), run: toggleMeasuring },
+  {
+    keys: ["Arrows"],
+    what: "While measuring: move the cursor, with Shift ten times as far",
+    group: "Tools",
+    inView: true,
+    matches: (event) => measuring.value && isArrow(event),
+    run: ({ key: name, shiftKey }) => moveKeyCursor(picturePane(), ...cursorStep(name, shiftKey)!),
+  },
+  {
+    keys: ["Enter"],
+    what: "While measuring: set an end at the cursor",
+    group: "Tools",
+    inView: true,
+    matches: (event) => measuring.value && key("enter")(event) && !isControl(event.target),
+    run: () => setEndAtKeyCursor(picturePane()),
+  },
+  {
+    keys: ["Delete"],
+    what: "Delete the last distance",
+    group: "Tools",
+    inView: true,
+    matches: (event) => measuring.value && (key("delete")(event) || key("backspace")(event)),
+    run: removeLast,
+  },
   {
     keys: ["Arrows"],
     what: "Orbit",
@@ -104,15 +134,6 @@ export const shortcuts: readonly Shortcut[] = [
     group: "Camera",
     matches: key("o"),
     run: toggleProjection,
-  },
-  { keys: ["M"], what: "Measure distances", group: "Tools", matches: key("m"), run: toggleMeasuring },
-  {
-    keys: ["Delete"],
-    what: "Delete the last distance",
-    group: "Tools",
-    inView: true,
-    matches: (event) => measuring.value && (key("delete")(event) || key("backspace")(event)),
-    run: removeLast,
   },
   {
     keys: ["Esc"],
@@ -171,7 +192,12 @@ export const pointerHelp: readonly { keys: string; what: string }[] = [
   { keys: "Wheel, pinch, Ctrl + drag", what: "Zoom" },
   { keys: "Alt + drag, twist", what: "Roll" },
   { keys: "Double click, double tap", what: "Orbit around this point" },
+  { keys: "Click, while measuring", what: "An end of a distance, in the picture or a slice" },
   { keys: "Click, beside slices", what: "Slices through this point" },
+  { keys: "Wheel, arrows, Page Up and Down on a slice", what: "Through the slices" },
+  { keys: "Ctrl + wheel, pinch, + and - on a slice", what: "Zoom of all slices; F takes it back" },
+  { keys: "Middle or Shift + drag on a slice", what: "Move all slices" },
+  { keys: "Right drag on a slice", what: "Level and window" },
   { keys: "Wheel or Shift + drag on a light", what: "Its distance" },
 ];
 

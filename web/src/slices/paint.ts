@@ -1,5 +1,5 @@
 import { decode, greyTable, type Window } from "../model/window";
-import type { LabelName } from "../state/volume";
+import type { LabelColor } from "../state/label-colors";
 import type { Slice } from "./fetch-slice";
 
 /** Grey picture of a slice, a pixel a sample. */
@@ -17,10 +17,9 @@ export function paintGrey(slice: Slice, window: Window): ImageData {
   return image;
 }
 
-/** Labels of a slice in their colors; 0 is clear. */
-export function paintLabels(slice: Slice, names: readonly LabelName[]): ImageData {
+/** Labels of a slice in their colors; 0 and what is hidden are clear. */
+export function paintLabels(slice: Slice, colors: ReadonlyMap<number, LabelColor>): ImageData {
   const { header, samples } = slice;
-  const colors = new Map(names.filter((label) => label.value !== 0).map((label) => [label.value, abgr(label.color)]));
   const byCode = new Map<number, number>();
   const image = new ImageData(header.width, header.height);
   const pixels = new Uint32Array(image.data.buffer);
@@ -28,7 +27,9 @@ export function paintLabels(slice: Slice, names: readonly LabelName[]): ImageDat
     const u = samples[i]!;
     let color = byCode.get(u);
     if (color === undefined) {
-      color = colors.get(Math.round(decode(header, u) ?? 0)) ?? 0;
+      const label = Math.round(decode(header, u) ?? 0);
+      const seen = colors.get(label);
+      color = label === 0 || !seen || seen.hidden ? 0 : abgr(seen.color);
       byCode.set(u, color);
     }
     pixels[i] = color;

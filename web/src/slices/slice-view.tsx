@@ -1,190 +1,77 @@
-import { useEffect, useMemo, useRef, useState } from "preact/hooks";
-import { newestWins } from "../model/latest";
-import { canvasOf, fitSlice, planes, pointOf, sampleIndex, type Plane } from "../model/slice";
-import { decode, dragWindow } from "../model/window";
-import { crosshair, setCrosshair } from "../state/crosshair";
-import type { Vec3 } from "../state/scene-types";
-import { labels, volume } from "../state/volume";
-import { startDrag } from "../ui/drag";
-import { fetchSlice, type Slice } from "./fetch-slice";
-import { paintGrey, paintLabels } from "./paint";
-import { dragTool, overlayOpacity, setWindow, sliceWindow, underCrosshair } from "./state";
+import { useEffect, useRef, useState } from "preact/hooks";
+import { formatCoordinate } from "../geometry/orientation";
+import { planes, type Plane, type Size } from "../model/slice";
+import { crosshair } from "../state/crosshair";
+import { volume } from "../state/volume";
+import { measuring } from "../view/distances";
+import { pointAt } from "../view/probing";
+import { goToSlice, sliceInput, slicePane, sliceStep_mm } from "./slice-input";
+import { SliceMarks } from "./slice-marks";
+import { SlicePicture } from "./slice-picture";
+import { dragTool, paneView, setPaneSize } from "./state";
+import { useSlice } from "./use-slice";
 
-/** A slice of the data at `mm` with the labels there. */
-interface Shown {
-  mm: number;
-  data: Slice;
-  labels: Slice | null;
+/** How large the pane is. */
+function usePaneSize(plane: Plane, root: { current: HTMLDivElement | null }): Size {
+  const [size, setSize] = useState<Size>({ width: 1, height: 1 });
+  useEffect(() => {
+    const observer = new ResizeObserver(([entry]) => {
+      const { width, height } = entry!.contentRect;
+      const now = { width: Math.max(1, width), height: Math.max(1, height) };
+      setSize(now);
+      setPaneSize(plane, now);
+    });
+    observer.observe(root.current!);
+    return () => {
+      observer.disconnect();
+      setPaneSize(plane, null);
+    };
+  }, [plane]);
+  return size;
 }
 
-/** Asks for the slice at `mm`, one request at a time, and keeps the last one until the next is there. */
-function useSlice(axis: "x" | "y" | "z", mm: number, overlay: string): { shown: Shown | null; failure: string } {
-  const [shown, setShown] = useState<Shown | null>(null);
-  const [failure, setFailure] = useState("");
-  const requests = useMemo(
-    () =>
-      newestWins<{ mm: number; overlay: string }>(
-        async (request, signal) => {
-          const [data, of] = await Promise.all([
-            fetchSlice(axis, request.mm, "", signal),
-            request.overlay ? fetchSlice(axis, request.mm, request.overlay, signal).catch(() => null) : null,
-          ]);
-          setShown({ mm: request.mm, data, labels: of });
-          setFailure("");
-        },
-        (error) => setFailure((error as Error).message),
-      ),
-    [axis],
-  );
-  const name = volume.value?.name;
-  useEffect(() => requests.ask({ mm, overlay }), [requests, mm, overlay, name]);
-  useEffect(() => () => requests.stop(), [requests]);
-  return { shown, failure };
-}
+const sliceKeys = "Arrow keys go through the slices, plus and minus zoom.";
+const measuringKeys =
+  "Arrow keys move the cursor, Enter sets an end of a distance, Page Up and Down go through the slices.";
 
 /** One plane with the crosshair: wheel, keys and slider go through it, clicks move the crosshair. */
 export function SliceView({ plane, overlay }: { plane: Plane; overlay: string }) {
   const layout = planes[plane];
   const root = useRef<HTMLDivElement>(null);
-  const canvas = useRef<HTMLCanvasElement>(null);
-  const [size, setSize] = useState({ width: 1, height: 1 });
+  const pane = paneView(usePaneSize(plane, root));
   const facts = volume.value;
-  const at = crosshair.value;
-  const mm = at?.[layout.normal] ?? 0;
+  const mm = crosshair.value?.[layout.normal] ?? 0;
   const { shown, failure } = useSlice(layout.axis, mm, overlay);
-  const window = sliceWindow.value;
-
-  useEffect(() => {
-    const observer = new ResizeObserver(([entry]) => {
-      const { width, height } = entry!.contentRect;
-      setSize({ width: Math.max(1, width), height: Math.max(1, height) });
-    });
-    observer.observe(root.current!);
-    return () => observer.disconnect();
-  }, []);
-
-  const grey = useMemo(() => shown && bitmapOf(paintGrey(shown.data, window)), [shown?.data, window]);
-  const names = labels.value[overlay];
-  const tint = useMemo(
-    () => (shown?.labels && names ? bitmapOf(paintLabels(shown.labels, names)) : null),
-    [shown?.labels, names],
-  );
-  const header = shown?.data.header;
-  const placement = header && fitSlice(header, size.width, size.height);
-
-  useEffect(() => {
-    const element = canvas.current!;
-    const density = Math.min(devicePixelRatio, 2);
-    element.width = Math.round(size.width * density);
-    element.height = Math.round(size.height * density);
-    const context = element.getContext("2d")!;
-    context.scale(density, density);
-    if (!header || !placement || !grey) return;
-    if (layout.flipped) {
-      context.translate(0, 2 * placement.top + placement.zoom * header.height);
-      context.scale(1, -1);
-    }
-    const draw = (bitmap: HTMLCanvasElement) =>
-      context.drawImage(
-        bitmap,
-        placement.left,
-        placement.top,
-        placement.zoom * header.width,
-        placement.zoom * header.height,
-      );
-    context.imageSmoothingQuality = "high";
-    draw(grey);
-    if (tint) {
-      context.imageSmoothingEnabled = false;
-      context.globalAlpha = overlayOpacity.value;
-      draw(tint);
-    }
-  }, [grey, tint, size, overlayOpacity.value]);
-
-  useEffect(() => {
-    // Planes that are sampled apart would differ by noise: one of them speaks for all.
-    if (plane !== "axial" || !at || !shown) return;
-    const value = valueAt(shown.data, shown.mm, at, plane);
-    const label = shown.labels && Math.round(valueAt(shown.labels, shown.mm, at, plane) ?? 0);
-    const known = label ? names?.find((one) => one.value === label) : undefined;
-    if (Math.abs(at[layout.normal] - shown.mm) < 1e-6)
-      underCrosshair.value =
-        value === undefined
-          ? null
-          : { value, label: known?.name.replaceAll("_", " ") || (label ? `Label ${label}` : "") };
-  }, [shown, at, names]);
-
   if (!facts) return <div ref={root} class="slice" style={{ gridArea: plane }} />;
   const lo = facts.bounds_mm[0][layout.normal];
   const hi = facts.bounds_mm[1][layout.normal];
-  const step = Math.min(...facts.spacing_mm);
-  const moveTo = (value: number) => {
-    const now = crosshair.peek();
-    if (now) setCrosshair(now.map((x, i) => (i === layout.normal ? value : x)) as unknown as Vec3);
-  };
-  const pointAt = (event: MouseEvent): Vec3 | null => {
-    if (!header || !placement) return null;
-    const box = root.current!.getBoundingClientRect();
-    return pointOf(layout, header, placement, mm, event.clientX - box.left, event.clientY - box.top);
-  };
-  const down = (event: PointerEvent) => {
-    if (event.button === 2 || (event.button === 0 && dragTool.value === "window")) {
-      const from = window;
-      startDrag(
-        event,
-        { move: ({ dx, dy }) => setWindow(dragWindow(from, dx, dy, facts.range[1] - facts.range[0])) },
-        [0, 2],
-      );
-      return;
-    }
-    const first = pointAt(event);
-    if (event.button !== 0 || !first) return;
-    setCrosshair(first);
-    startDrag(event, {
-      move: ({ event: moved }) => {
-        const p = pointAt(moved);
-        if (p) setCrosshair(p);
-      },
-    });
-  };
-  const wheel = (event: WheelEvent) => {
-    event.preventDefault();
-    moveTo(mm - Math.sign(event.deltaY) * step * (event.shiftKey ? 10 : 1));
-  };
-  const keyDown = (event: KeyboardEvent) => {
-    const steps = { ArrowUp: 1, ArrowDown: -1, PageUp: 10, PageDown: -10 }[event.key];
-    if (!steps) return;
-    event.preventDefault();
-    event.stopPropagation();
-    moveTo(mm + steps * step);
-  };
-  const cross = at && header && placement && canvasOf(layout, header, placement, at);
+  const step = sliceStep_mm(facts);
+  const input = sliceInput(plane, pane, mm, facts);
   const { letters } = layout;
+  const place = `${formatCoordinate(layout.normal, mm)} mm`;
   return (
     <div
       ref={root}
-      class={dragTool.value === "window" ? "slice windowing" : "slice"}
+      class={`slice ${dragTool.value === "window" ? "windowing" : ""} ${measuring.value ? "measuring" : ""}`}
       style={{ gridArea: plane }}
       tabindex={0}
-      role="group"
-      aria-label={`${layout.title} slice at ${mm.toFixed(1)} mm. Arrow keys go through the slices.`}
-      onPointerDown={down}
-      onWheel={wheel}
-      onKeyDown={keyDown}
+      role="application"
+      aria-label={`${layout.title} slice at ${place}. ${measuring.value ? measuringKeys : sliceKeys}`}
+      onPointerDown={input.down}
+      onPointerMove={input.hover}
+      onPointerLeave={() => pointAt(null)}
+      onWheel={input.wheel}
+      onKeyDown={input.keyDown}
       onContextMenu={(event) => event.preventDefault()}
     >
-      <canvas ref={canvas} />
-      {cross && (
-        <svg class="slice-marks" aria-hidden="true">
-          <Crosshair x={cross[0]} y={cross[1]} width={size.width} height={size.height} plane={plane} />
-        </svg>
-      )}
+      <SlicePicture layout={layout} pane={pane} shown={shown} overlay={overlay} />
+      <SliceMarks plane={plane} pane={pane} measured={slicePane(plane, pane, mm, facts)} />
       <span class="slice-letter left">{letters.left}</span>
       <span class="slice-letter right">{letters.right}</span>
       <span class="slice-letter top">{letters.top}</span>
       <span class="slice-letter bottom">{letters.bottom}</span>
       <span class={`slice-title ${plane}`}>{layout.title}</span>
-      <span class="slice-readout">{describeSide(layout.normal, mm)}</span>
+      <span class="slice-readout">{place}</span>
       {failure && <span class="slice-failure">{failure}</span>}
       <input
         class="slice-slider"
@@ -193,48 +80,10 @@ export function SliceView({ plane, overlay }: { plane: Plane; overlay: string })
         max={Math.max(1, Math.round((hi - lo) / step))}
         value={Math.round((mm - lo) / step)}
         aria-label={`${layout.title} slice`}
-        aria-valuetext={`${mm.toFixed(1)} mm`}
+        aria-valuetext={place}
         onPointerDown={(event) => event.stopPropagation()}
-        onInput={(event) => moveTo(lo + Number(event.currentTarget.value) * step)}
+        onInput={(event) => goToSlice(layout, lo + Number(event.currentTarget.value) * step)}
       />
     </div>
-  );
-}
-
-function describeSide(normal: 0 | 1 | 2, mm: number): string {
-  const sides = [
-    ["R", "L"],
-    ["A", "P"],
-    ["I", "S"],
-  ] as const;
-  return `${sides[normal][mm < 0 ? 0 : 1]} ${Math.abs(mm).toFixed(1)} mm`;
-}
-
-function bitmapOf(image: ImageData): HTMLCanvasElement {
-  const bitmap = document.createElement("canvas");
-  bitmap.width = image.width;
-  bitmap.height = image.height;
-  bitmap.getContext("2d")!.putImageData(image, 0, 0);
-  return bitmap;
-}
-
-/** What a slice has under the crosshair; only while it is the one through it. */
-function valueAt(slice: Slice, mm: number, at: Vec3, plane: Plane): number | undefined {
-  if (Math.abs(at[planes[plane].normal] - mm) > 1e-6) return undefined;
-  const index = sampleIndex(planes[plane], slice.header, at);
-  return index === undefined ? undefined : decode(slice.header, slice.samples[index]!);
-}
-
-/** Lines in the colors of the planes that they are, open in the middle so that what is marked stays in sight. */
-function Crosshair(props: { x: number; y: number; width: number; height: number; plane: Plane }) {
-  const { x, y, width, height, plane } = props;
-  const gap = 8;
-  const vertical = plane === "sagittal" ? "coronal" : "sagittal";
-  const horizontal = plane === "axial" ? "coronal" : "axial";
-  return (
-    <>
-      <path class={vertical} d={`M${x} 0V${y - gap}M${x} ${y + gap}V${height}`} />
-      <path class={horizontal} d={`M0 ${y}H${x - gap}M${x + gap} ${y}H${width}`} />
-    </>
   );
 }

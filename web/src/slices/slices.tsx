@@ -1,23 +1,29 @@
-import { useEffect } from "preact/hooks";
-import { formatNumber } from "../model/axis";
-import { describePosition } from "../model/slice";
+import { useEffect, useMemo, useState } from "preact/hooks";
+import { formatPosition } from "../geometry/orientation";
+import { formatValue } from "../model/axis";
+import { titleOf } from "../model/label-rules";
+import { newestWins } from "../model/latest";
 import { ctWindows } from "../model/window";
 import { crosshair, setCrosshair } from "../state/crosshair";
+import type { Probe } from "../state/protocol";
+import type { Vec3 } from "../state/scene-types";
 import { labels, volume } from "../state/volume";
 import { IconButton, NumberInput } from "../ui/controls";
 import { showToast } from "../ui/toast";
 import { addOverlay, overlays, view } from "../view/overlay";
 import "../styles/slices.css";
 import { picking, pickPoint } from "../view/pick";
+import { probeAt } from "../view/probing";
 import { SliceView } from "./slice-view";
 import {
   dragTool,
   initialWindow,
   overlayOpacity,
   overlayVolume,
+  resetSlices,
   setWindow,
+  slicesMoved,
   sliceWindow,
-  underCrosshair,
 } from "./state";
 
 /** The label volume over the slices: the chosen one, else the first. */
@@ -60,16 +66,33 @@ function CrosshairMark() {
   );
 }
 
+/** What data and labels have at the crosshair, as the picture's probe has it; null until that is known. */
+function useAtCrosshair(): Probe | null {
+  const [answer, setAnswer] = useState<Probe | null>(null);
+  const requests = useMemo(
+    () =>
+      newestWins<Vec3 | null>(
+        async (at) => setAnswer(at && (await probeAt(at))),
+        () => setAnswer(null),
+      ),
+    [],
+  );
+  const at = crosshair.value;
+  useEffect(() => requests.ask(at), [at, volume.value, labels.value]);
+  useEffect(() => () => requests.stop(), []);
+  return answer;
+}
+
 /** What the slices show and where. */
 export function SliceBar() {
   const facts = volume.value;
   const at = crosshair.value;
+  const under = useAtCrosshair();
   if (!facts || !at) return null;
   const window = sliceWindow.value;
   const presets = facts.hounsfield ? ctWindows : [{ name: "Automatic", window: initialWindow.value }];
   const known = Object.keys(labels.value);
   const overlay = shownOverlay();
-  const under = underCrosshair.value;
   const locate = async () => {
     const answer = await pickPoint();
     if (answer?.position_mm) setCrosshair(answer.position_mm);
@@ -89,16 +112,20 @@ export function SliceBar() {
         pressed={dragTool.value === "window"}
         onClick={() => (dragTool.value = dragTool.value === "window" ? "crosshair" : "window")}
       />
+      <IconButton
+        icon="reset"
+        label="Show all of every slice"
+        keys="F on a slice"
+        disabled={!slicesMoved.value}
+        onClick={resetSlices}
+      />
       <span class="slice-position" aria-live="off">
-        {describePosition(at)} mm
+        {formatPosition(at)}
       </span>
-      {under && (
+      {under?.value != null && (
         <span class="slice-value">
-          <b>
-            {formatNumber(under.value, facts.hounsfield ? 1 : (facts.range[1] - facts.range[0]) / 1000)}
-            {facts.hounsfield ? " HU" : ""}
-          </b>
-          {under.label}
+          <b>{formatValue(under.value, facts)}</b>
+          {under.labels?.filter((label) => label.of === overlay && label.value !== 0).map(titleOf)}
         </span>
       )}
       <span class="spring" />

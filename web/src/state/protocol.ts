@@ -13,11 +13,14 @@ export type PageMessage =
   | { type: "open"; path: string }
   | { type: "split"; at: number | null }
   | { type: "seek"; time_s: number | null }
-  | { type: "probe"; id: number; x: number; y: number }
+  | ({ type: "probe"; id: number } & ProbedPlace)
   | { type: "export"; file: string }
   | { type: "cancel_export" }
   | { type: "draw_presets" }
   | { type: "shown"; frame: number };
+
+/** A place of the picture, 0 to 1 from the top left, or of the volume. */
+export type ProbedPlace = { x: number; y: number } | { position_mm: Vec3 };
 
 export interface Named {
   name: string;
@@ -33,6 +36,8 @@ export interface Hello {
   environments: { name: string; path: string }[];
   samples: (Named & { path: string })[];
   folder: string;
+  /** Whether there is an ffmpeg to write movies with. */
+  movies: boolean;
 }
 
 export interface SceneMessage {
@@ -87,7 +92,8 @@ export interface Probe {
   hit: boolean;
   position_mm?: Vec3;
   voxel?: Vec3;
-  value?: number;
+  /** Null where the data is not finite. */
+  value?: number | null;
   labels?: { of: string; value: number; name: string }[];
 }
 

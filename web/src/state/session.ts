@@ -1,6 +1,6 @@
 import { signal, type ReadonlySignal } from "@preact/signals";
 import { on, send } from "./connection";
-import type { ExportState, Hello, Probe, Status } from "./protocol";
+import type { ExportState, Hello, Probe, ProbedPlace, Status } from "./protocol";
 
 /** What the server says about the session besides scene and pictures. */
 
@@ -38,11 +38,11 @@ export function setSplit(at: number | null): void {
 let probes = 0;
 const waiting = new Map<number, (answer: Probe) => void>();
 
-/** What is at a place of the picture, 0 to 1 from the top left. Null when the connection is lost before the answer. */
-export function probe(x: number, y: number): Promise<Probe | null> {
+/** What is at a place. Null when the connection is lost before the answer. */
+export function probe(place: ProbedPlace): Promise<Probe | null> {
   const id = ++probes;
   return new Promise((resolve) => {
-    if (!send({ type: "probe", id, x, y })) return resolve(null);
+    if (!send({ type: "probe", id, ...place })) return resolve(null);
     waiting.set(id, resolve);
     setTimeout(() => {
       if (waiting.delete(id)) resolve(null);

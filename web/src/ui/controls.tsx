@@ -1,5 +1,6 @@
 import type { ComponentChildren } from "preact";
 import { useId, useRef, useState } from "preact/hooks";
+import { formatCoordinate, parseCoordinate, type Axis } from "../geometry/orientation";
 import { newGesture } from "../state/scene";
 import { Icon, type IconName } from "./icons";
 
@@ -28,6 +29,8 @@ export interface NumberProps {
   /** Digits after the point that are shown. */
   digits?: number;
   unit?: string;
+  /** It is a coordinate along this axis [LPS mm], written by the patient's side. */
+  axis?: Axis;
   id?: string;
   label?: string;
   disabled?: boolean;
@@ -35,15 +38,20 @@ export interface NumberProps {
 
 const clamp = (x: number, min = -Infinity, max = Infinity) => Math.min(max, Math.max(min, x));
 
+/** As the page writes it; empty where it is not finite. */
+function textOf({ value, axis, digits = 2 }: NumberProps): string {
+  if (!Number.isFinite(value)) return "";
+  return axis === undefined ? String(Number(value.toFixed(digits))) : formatCoordinate(axis, value);
+}
+
 /** A number to type; Enter or leaving takes it, Escape does not, arrow keys step (Shift: ten steps). */
 export function NumberInput(props: NumberProps) {
   const [draft, setDraft] = useState<string | null>(null);
   const gesture = useRef("");
-  const digits = props.digits ?? 2;
-  const text = Number.isFinite(props.value) ? String(Number(props.value.toFixed(digits))) : "";
+  const text = textOf(props);
   const take = (typed: string) => {
     setDraft(null);
-    const value = Number(typed.replace(",", "."));
+    const value = props.axis === undefined ? Number(typed.replace(",", ".")) : parseCoordinate(props.axis, typed);
     if (typed.trim() !== "" && Number.isFinite(value) && typed !== text)
       props.onChange(clamp(value, props.min, props.max), newGesture("number"));
   };
@@ -66,7 +74,7 @@ export function NumberInput(props: NumberProps) {
       <input
         id={props.id}
         type="text"
-        inputMode="decimal"
+        inputMode={props.axis === undefined ? "decimal" : "text"}
         autocomplete="off"
         aria-label={props.label ? (props.unit ? `${props.label} [${props.unit}]` : props.label) : undefined}
         disabled={props.disabled}
@@ -127,7 +135,7 @@ export function Slider(props: SliderProps) {
         value={Math.round(share * kSliderSteps)}
         disabled={props.disabled}
         style={{ "--share": share }}
-        aria-valuetext={`${Number(props.value.toFixed(props.digits ?? 2))}${props.unit ? ` ${props.unit}` : ""}`}
+        aria-valuetext={`${textOf(props)}${props.unit ? ` ${props.unit}` : ""}`}
         onInput={slide}
         onChange={() => (gesture.current = null)}
       />

@@ -12,12 +12,15 @@ const shownToasts = signal<(Toast & { id: number })[]>([]);
 let toasts = 0;
 const kShown_ms = 5000;
 const kErrorShown_ms = 12000;
+/** As slow readers need. */
+const kLetter_ms = 80;
 
-/** Shows a message for some seconds; the same text again renews it. */
+/** Shows a message for some seconds, long ones longer; the same text again renews it. */
 export function showToast(toast: Toast): void {
   const id = ++toasts;
   shownToasts.value = [...shownToasts.value.filter((other) => other.text !== toast.text), { ...toast, id }].slice(-4);
-  setTimeout(() => dismiss(id), toast.tone === "error" ? kErrorShown_ms : kShown_ms);
+  const least_ms = toast.tone === "error" ? kErrorShown_ms : kShown_ms;
+  setTimeout(() => dismiss(id), Math.max(least_ms, kLetter_ms * toast.text.length));
 }
 
 function dismiss(id: number): void {

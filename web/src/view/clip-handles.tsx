@@ -1,3 +1,4 @@
+import { formatCoordinate, type Axis } from "../geometry/orientation";
 import { nearestOnLine } from "../geometry/projection";
 import { add, scale, type Vec3 } from "../geometry/vec3";
 import type { Clip, Faces } from "../state/scene-types";
@@ -42,7 +43,7 @@ function setSide(axis: number, side: 0 | 1, mm: number | null, gesture: string):
 interface FaceProps {
   shown: ViewProjection;
   box: readonly [Vec3, Vec3];
-  axis: number;
+  axis: Axis;
   side: 0 | 1;
 }
 
@@ -99,13 +100,13 @@ function Face({ shown, box, axis, side }: FaceProps) {
         tabindex={0}
         aria-label={`Clip from the ${name}`}
         aria-valuenow={Math.round(at)}
-        aria-valuetext={`${at.toFixed(0)} mm`}
+        aria-valuetext={`${formatCoordinate(axis, at)} mm`}
         transform={`translate(${seen.x} ${seen.y})`}
         onPointerDown={press}
         onKeyDown={keyDown}
         onDblClick={() => setSide(axis, side, null, newGesture("clip"))}
       >
-        <title>{`Clip from the ${name}: ${at.toFixed(1)} mm. Double click opens it`}</title>
+        <title>{`Clip from the ${name}: ${formatCoordinate(axis, at)} mm. Double click opens it`}</title>
         <circle class="reach" r={16} />
         <circle class="knob" r={6.5} />
       </g>
@@ -133,7 +134,7 @@ export function ClipHandles() {
   const now = scene.value;
   if (!clipHandles.value || !shown || !now || !volume.value) return null;
   const box = visibleBox_mm(now);
-  const faces = [0, 1, 2].flatMap((axis) => [0, 1].map((side) => ({ axis, side: side as 0 | 1 })));
+  const faces = ([0, 1, 2] as const).flatMap((axis) => [0, 1].map((side) => ({ axis, side: side as 0 | 1 })));
   return (
     <g class="clip">
       <Edges shown={shown} box={box} />

@@ -1,89 +1,52 @@
-import { computed, signal } from "@preact/signals";
-import { distance, type Vec3 } from "../geometry/vec3";
-import { pointerTool } from "../state/tools";
-import { on } from "../state/connection";
+import type { ComponentChildren } from "preact";
 import { Icon } from "../ui/icons";
 import { startDrag } from "../ui/drag";
-import { showToast } from "../ui/toast";
-import { view, type ViewProjection } from "./overlay";
-import { pointed, probeAt } from "./probing";
+import type { Vec3 } from "../geometry/vec3";
+import {
+  begun,
+  lengthOf,
+  measurements,
+  measuring,
+  moveEnd,
+  removeMeasurement,
+  said,
+  type Measurement,
+  type MeasuringPane,
+} from "./distances";
+import { keyCursor } from "./key-cursor";
+import { view, viewSize } from "./overlay";
+import { pointed } from "./probing";
 
-/** Distances between points of the anatomy. They belong to this page, not to the scene. */
+/** Distances as they are drawn over the picture and over the slices. */
 
-export interface Measurement {
-  id: number;
-  a: Vec3;
-  b: Vec3;
+/** The picture, as distances are set in it. */
+export function picturePane(): MeasuringPane {
+  const shown = view.value;
+  const { width, height } = viewSize.value;
+  return {
+    name: "picture",
+    width,
+    height,
+    start: { x: width / 2, y: height / 2 },
+    place: (p) => {
+      const seen = shown?.project(p);
+      return seen && seen.depth_mm > 0 ? seen : null;
+    },
+    at: (x, y) => ({ x, y }),
+  };
 }
 
-export const measurements = signal<readonly Measurement[]>([]);
-/** The first end of a distance whose second is not set yet. */
-const begun = signal<Vec3 | null>(null);
-export const measuring = computed(() => pointerTool.value === "measure");
-let count = 0;
-
-/** Distances belong to a volume; one that fails to open changes nothing. */
-let opening = false;
-on("status", (message) => {
-  if (opening && message.stage === "ready") clearMeasurements();
-  opening = message.stage === "reading" || message.stage === "preparing";
-});
-
-export function clearMeasurements(): void {
-  measurements.value = [];
-  begun.value = null;
+interface LineProps {
+  pane: MeasuringPane;
+  of: { a: Vec3; b: Vec3 };
+  children?: ComponentChildren;
 }
 
-export function removeMeasurement(id: number): void {
-  measurements.value = measurements.value.filter((one) => one.id !== id);
-}
-
-/** Drops the first end, or the newest distance. */
-export function removeLast(): void {
-  if (begun.value) begun.value = null;
-  else measurements.value = measurements.value.slice(0, -1);
-}
-
-/** Ends the tool, or first the distance that is begun. */
-export function cancelMeasuring(): void {
-  if (begun.value) begun.value = null;
-  else pointerTool.value = "navigate";
-}
-
-/** A click of the tool at a place of the view area. */
-export async function setEnd(x: number, y: number): Promise<void> {
-  const place = (await probeAt(x, y))?.position_mm;
-  if (!place) return showToast({ text: "Nothing there to measure: click on the volume." });
-  if (!begun.value) {
-    begun.value = place;
-    return;
-  }
-  measurements.value = [...measurements.value, { id: ++count, a: begun.value, b: place }];
-  begun.value = null;
-}
-
-async function moveEnd(id: number, end: "a" | "b", x: number, y: number): Promise<void> {
-  const place = (await probeAt(x, y))?.position_mm;
-  if (place) measurements.value = measurements.value.map((one) => (one.id === id ? { ...one, [end]: place } : one));
-}
-
-const formatted = (mm: number) => `${mm >= 100 ? mm.toFixed(0) : mm.toFixed(1)} mm`;
-
-function Line({
-  shown,
-  a,
-  b,
-  children,
-}: {
-  shown: ViewProjection;
-  a: Vec3;
-  b: Vec3;
-  children?: preact.ComponentChildren;
-}) {
-  const p = shown.project(a);
-  const q = shown.project(b);
-  if (p.depth_mm <= 0 || q.depth_mm <= 0) return null;
-  const text = formatted(distance(a, b));
+function Line({ pane, of, children }: LineProps) {
+  const p = pane.place(of.a);
+  const q = pane.place(of.b);
+  if (!p || !q) return null;
+  const text = lengthOf(of);
   const width = text.length * 6.6 + 14;
   return (
     <>
@@ -98,19 +61,20 @@ function Line({
   );
 }
 
-function End({ shown, of, end }: { shown: ViewProjection; of: Measurement; end: "a" | "b" }) {
-  const p = shown.project(of[end]);
-  if (p.depth_mm <= 0) return null;
+function End({ pane, of, end }: { pane: MeasuringPane; of: Measurement; end: "a" | "b" }) {
+  const p = pane.place(of[end]);
+  if (!p) return null;
   let busy = false;
   const press = (event: PointerEvent) => {
-    const area = (event.currentTarget as Element).closest(".view")!.getBoundingClientRect();
+    const area = (event.currentTarget as Element).closest(".view, .slice")!.getBoundingClientRect();
+    const follow = (at: PointerEvent) => moveEnd(of.id, end, pane, at.clientX - area.left, at.clientY - area.top);
     startDrag(event, {
       move: ({ event: at }) => {
         if (busy) return;
         busy = true;
-        void moveEnd(of.id, end, at.clientX - area.left, at.clientY - area.top).finally(() => (busy = false));
+        void follow(at).finally(() => (busy = false));
       },
-      end: ({ event: at }) => void moveEnd(of.id, end, at.clientX - area.left, at.clientY - area.top),
+      end: ({ event: at }) => void follow(at),
     });
   };
   return (
@@ -121,39 +85,81 @@ function End({ shown, of, end }: { shown: ViewProjection; of: Measurement; end: 
   );
 }
 
-export function Measurements() {
-  const shown = view.value;
-  if (!shown) return null;
+function Remove({ of }: { of: Measurement }) {
+  const keyDown = (event: KeyboardEvent) => {
+    if (event.key !== "Enter" && event.key !== "Delete") return;
+    event.preventDefault();
+    event.stopPropagation();
+    removeMeasurement(of.id);
+  };
+  return (
+    <g
+      class="handle remove"
+      role="button"
+      tabindex={0}
+      aria-label={`Delete the distance of ${lengthOf(of)}`}
+      onClick={() => removeMeasurement(of.id)}
+      onKeyDown={keyDown}
+    >
+      <circle class="tag" r={9} />
+      <g transform="translate(-6 -6)">
+        <Icon name="close" size={12} />
+      </g>
+    </g>
+  );
+}
+
+function Dot({ pane, at }: { pane: MeasuringPane; at: Vec3 }) {
+  const seen = pane.place(at);
+  return seen && <circle class="dot" cx={seen.x} cy={seen.y} r={4} />;
+}
+
+/** The distances whose both ends are seen in a pane, and the one that is begun. */
+export function Distances({ pane }: { pane: MeasuringPane }) {
   const first = begun.value;
   const second = measuring.value ? pointed.value?.position_mm : undefined;
-  const start = first && shown.project(first);
-  const end = first && second && shown.project(second);
+  const cursor = keyCursor.value?.pane === pane.name ? keyCursor.value : null;
   return (
     <g class="measurements">
-      {measurements.value.map((one) => (
-        <g key={one.id} class="measurement">
-          <Line shown={shown} a={one.a} b={one.b}>
-            <g
-              class="handle remove"
-              role="button"
-              tabindex={0}
-              aria-label={`Delete the distance of ${formatted(distance(one.a, one.b))}`}
-              onClick={() => removeMeasurement(one.id)}
-              onKeyDown={(event) => (event.key === "Enter" || event.key === "Delete") && removeMeasurement(one.id)}
-            >
-              <circle class="tag" r={9} />
-              <g transform="translate(-6 -6)">
-                <Icon name="close" size={12} />
-              </g>
-            </g>
-          </Line>
-          <End shown={shown} of={one} end="a" />
-          <End shown={shown} of={one} end="b" />
-        </g>
-      ))}
-      {first && second && <Line shown={shown} a={first} b={second} />}
-      {end && end.depth_mm > 0 && <circle class="dot" cx={end.x} cy={end.y} r={4} />}
-      {start && start.depth_mm > 0 && <circle class="dot" cx={start.x} cy={start.y} r={4} />}
+      {measurements.value
+        .filter((one) => pane.place(one.a) && pane.place(one.b))
+        .map((one) => (
+          <g key={one.id} class="measurement">
+            <Line pane={pane} of={one}>
+              <Remove of={one} />
+            </Line>
+            <End pane={pane} of={one} end="a" />
+            <End pane={pane} of={one} end="b" />
+          </g>
+        ))}
+      {first && second && <Line pane={pane} of={{ a: first, b: second }} />}
+      {first && second && <Dot pane={pane} at={second} />}
+      {first && <Dot pane={pane} at={first} />}
+      {cursor && <KeyCursor x={cursor.x} y={cursor.y} />}
     </g>
+  );
+}
+
+function KeyCursor({ x, y }: { x: number; y: number }) {
+  const cross = `M${x - 14} ${y}h9M${x + 5} ${y}h9M${x} ${y - 14}v9M${x} ${y + 5}v9`;
+  return (
+    <g class="key-cursor">
+      <path class="under" d={cross} />
+      <path d={cross} />
+    </g>
+  );
+}
+
+/** Over the picture. */
+export function Measurements() {
+  return view.value ? <Distances pane={picturePane()} /> : null;
+}
+
+/** What screen readers hear of measuring. */
+export function MeasuringVoice() {
+  return (
+    <div class="unseen" role="status" aria-live="polite" aria-label="Measuring">
+      {said.value}
+    </div>
   );
 }

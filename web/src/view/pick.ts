@@ -29,7 +29,7 @@ export function pickPoint(): Promise<Probe | null> {
         event.preventDefault();
         event.stopImmediatePropagation();
         const box = area.getBoundingClientRect();
-        end(probeAt(event.clientX - box.left, event.clientY - box.top));
+        end(probeAt({ x: event.clientX - box.left, y: event.clientY - box.top }));
       },
       options,
     );

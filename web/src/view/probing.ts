@@ -1,43 +1,54 @@
 import { signal, type ReadonlySignal } from "@preact/signals";
-import type { Probe } from "../state/protocol";
+import type { Vec3 } from "../geometry/vec3";
+import type { Probe, ProbedPlace } from "../state/protocol";
 import { probe } from "../state/session";
 import { view } from "./overlay";
 
-/** What is at places of the view area. */
+/** What is at places of the picture and of the slices. */
 
-/** The anatomy at a place of the view area [CSS px]; null beside the picture, where nothing is, and without answer. */
-export async function probeAt(x: number, y: number): Promise<Probe | null> {
+/** A place of the view area [CSS px], or a point of the volume [LPS mm]. */
+export type Place = { x: number; y: number } | Vec3;
+
+/** The place as the server is asked about it; null beside the picture. */
+function probedPlace(place: Place): ProbedPlace | null {
+  if (!("x" in place)) return { position_mm: place };
   const rect = view.peek()?.rect;
   if (!rect) return null;
-  const across = (x - rect.x) / rect.width;
-  const down = (y - rect.y) / rect.height;
-  if (across < 0 || across > 1 || down < 0 || down > 1) return null;
-  const answer = await probe(across, down);
+  const x = (place.x - rect.x) / rect.width;
+  const y = (place.y - rect.y) / rect.height;
+  return x < 0 || x > 1 || y < 0 || y > 1 ? null : { x, y };
+}
+
+/** The anatomy at a place; null beside the picture, where nothing is, and without answer. */
+export async function probeAt(place: Place): Promise<Probe | null> {
+  const probed = probedPlace(place);
+  const answer = probed && (await probe(probed));
   return answer?.hit ? answer : null;
 }
 
 const underPointer = signal<Probe | null>(null);
-/** What is under the pointer; null where nothing is. */
+/** What is under the pointer, in the picture or in a slice; null where nothing is. */
 export const pointed: ReadonlySignal<Probe | null> = underPointer;
 
 const kPause_ms = 60;
-let wanted: { x: number; y: number } | null = null;
+/** Where the pointer is; null: nowhere. */
+let current: Place | null = null;
 let asking = false;
 
-/** The pointer is here [CSS px of the view area]: asked one at a time, and of the places meanwhile only the last. */
-export function pointAt(place: { x: number; y: number } | null): void {
-  wanted = place;
+/** The pointer is here: asked one at a time, and of the places meanwhile only the last. */
+export function pointAt(place: Place | null): void {
+  current = place;
   if (!place) underPointer.value = null;
   if (!asking && place) void ask();
 }
 
 async function ask(): Promise<void> {
   asking = true;
-  while (wanted) {
-    const { x, y } = wanted;
-    wanted = null;
-    const answer = await probeAt(x, y);
-    underPointer.value = answer;
+  for (let asked: Place | null = null; current && current !== asked; ) {
+    asked = current;
+    const answer = await probeAt(asked);
+    // It may have left meanwhile.
+    if (current) underPointer.value = answer;
     await new Promise((resolve) => setTimeout(resolve, kPause_ms));
   }
   asking = false;

@@ -1,44 +1,33 @@
+import { formatPosition } from "../geometry/orientation";
+import { formatValue } from "../model/axis";
+import { titleOf } from "../model/label-rules";
 import { frame, progress } from "../state/frame";
+import { labelColors } from "../state/label-colors";
 import type { FrameHeader, Probe } from "../state/protocol";
 import { viewers } from "../state/session";
-import { labels, volume } from "../state/volume";
+import { volume } from "../state/volume";
 import { pointed } from "./probing";
 
 /** The line below the picture: what is under the pointer, and how far the picture is. */
 
-const kSides = [
-  ["R", "L"],
-  ["A", "P"],
-  ["I", "S"],
-] as const;
-
-/** "12.5 L" of an LPS coordinate: without a sign, with the side. */
-function coordinate(mm: number, axis: number): string {
-  const rounded = mm.toFixed(1);
-  return `${rounded.replace("-", "")} ${kSides[axis]![Number(rounded) > 0 ? 1 : 0]}`;
-}
+/** Not what no label marks. */
+const isMarked = ({ value }: { value: number }) => value !== 0;
 
 function Pointed({ at }: { at: Probe }) {
-  const unit = volume.value?.hounsfield ? " HU" : "";
-  const digits = Number.isInteger(at.value) ? 0 : 1;
+  const facts = volume.value;
   return (
     <>
       <span
         class="cell position"
         title="Position under the pointer: distance from the origin toward the patient's side"
       >
-        {at.position_mm?.map(coordinate).join("  ")} mm
+        {at.position_mm && formatPosition(at.position_mm)}
       </span>
-      {at.value !== undefined && (
-        <span class="cell value">
-          {at.value.toFixed(digits)}
-          {unit}
-        </span>
-      )}
-      {at.labels?.map((label) => (
+      {facts && at.value != null && <span class="cell value">{formatValue(at.value, facts)}</span>}
+      {at.labels?.filter(isMarked).map((label) => (
         <span key={label.of} class="cell label" title={`Label ${label.value} of ${label.of}`}>
-          <i style={{ background: labels.value[label.of]?.find((one) => one.value === label.value)?.color }} />
-          {label.name}
+          <i style={{ background: labelColors.value[label.of]?.get(label.value)?.color }} />
+          {titleOf(label)}
         </span>
       ))}
     </>
@@ -111,7 +100,7 @@ export function StatusBar() {
           <span class="cell dim">{volume.value ? "Point at the volume to read its values" : ""}</span>
         )}
       </div>
-      <div class="work" aria-label="Progress of the picture">
+      <div class="work" role="group" aria-label="Progress of the picture">
         {viewers.value > 1 && <span class="cell dim">{viewers.value} viewers</span>}
         {header && <Work header={header} />}
       </div>

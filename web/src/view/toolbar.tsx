@@ -3,7 +3,7 @@ import { setSplit, split } from "../state/session";
 import { clipHandles, lightHandles, pointerTool } from "../state/tools";
 import { Button, IconButton } from "../ui/controls";
 import { fitView, toggleProjection } from "./camera-control";
-import { cancelMeasuring, clearMeasurements, measurements, measuring } from "./measure";
+import { cancelMeasuring, clearMeasurements, measurements, measuring } from "./distances";
 
 /** The tools over the picture, at its left edge. */
 
@@ -33,7 +33,11 @@ export function Toolbar() {
         label="Measure distances"
         keys="M"
         pressed={measuring.value}
-        onClick={toggleMeasuring}
+        onClick={(event) => {
+          toggleMeasuring();
+          // The keys that move the cursor are the picture's.
+          (event.currentTarget as Element).closest<HTMLElement>(".view")?.focus({ preventScroll: true });
+        }}
       />
       <IconButton icon="light" label="Light handles" keys="L" pressed={lightHandles.value} onClick={toggleLights} />
       <IconButton icon="clip" label="Clip handles" keys="C" pressed={clipHandles.value} onClick={toggleClip} />
@@ -63,7 +67,7 @@ export function ToolHint() {
   if (measuring.value)
     return (
       <div class="hint floating">
-        <span>Click two points on the volume</span>
+        <span>Click two points, or arrow keys and Enter</span>
         {measurements.value.length > 0 && <Button onClick={clearMeasurements}>Delete all</Button>}
         <Button onClick={toggleMeasuring}>Done</Button>
       </div>

@@ -5,7 +5,9 @@ import { scene } from "../state/scene";
 import { setTarget } from "./camera-control";
 import { ClipHandles } from "./clip-handles";
 import { LightHandles } from "./light-handles";
-import { measuring, Measurements, setEnd } from "./measure";
+import { measuring, setEnd } from "./distances";
+import { hideKeyCursor } from "./key-cursor";
+import { Measurements, MeasuringVoice, picturePane } from "./measure";
 import { attachNavigation } from "./navigation";
 import { EdgeLabels, OrientationCube } from "./orientation";
 import { overlays, view, viewSize } from "./overlay";
@@ -15,6 +17,9 @@ import { pointAt, probeAt } from "./probing";
 import { ScaleBar } from "./scale-bar";
 import { SplitHandle } from "./split-handle";
 import { Toolbar, ToolHint } from "./toolbar";
+
+const viewKeys = "Arrow keys orbit, plus and minus zoom.";
+const measuringKeys = "Arrow keys move the cursor, Enter sets an end of a distance, Escape drops it.";
 
 /** The picture, what is drawn over it and what pointing at it does. */
 export function View() {
@@ -32,21 +37,22 @@ export function View() {
     const detach = attachNavigation(element, {
       click: async (x, y) => {
         const at = inArea(x, y);
-        if (measuring.peek()) return void setEnd(at.x, at.y);
+        if (measuring.peek()) return void setEnd(picturePane(), at.x, at.y);
         pointAt(at);
         if (layout.peek() !== "slices") return;
-        const place = (await probeAt(at.x, at.y))?.position_mm;
+        const place = (await probeAt(at))?.position_mm;
         if (place) setCrosshair(place);
       },
       doubleClick: async (x, y) => {
         const at = inArea(x, y);
         if (measuring.peek()) return;
-        const place = (await probeAt(at.x, at.y))?.position_mm;
+        const place = (await probeAt(at))?.position_mm;
         if (place) setTarget(place);
       },
     });
     const hover = (event: PointerEvent) => {
       const over = event.target instanceof Element && event.target.closest(".floating");
+      if (event.movementX || event.movementY) hideKeyCursor();
       pointAt(event.buttons === 0 && !over ? inArea(event.clientX, event.clientY) : null);
     };
     const leave = () => pointAt(null);
@@ -67,10 +73,12 @@ export function View() {
       ref={area}
       class={measuring.value ? "view measuring" : "view"}
       tabindex={0}
+      inert={!scene.value}
       role="application"
-      aria-label="View of the volume. Arrow keys orbit, plus and minus zoom, question mark lists all keys."
+      aria-label={`View of the volume. ${measuring.value ? measuringKeys : viewKeys} Question mark lists all keys.`}
     >
       <Picture />
+      <MeasuringVoice />
       {ready && (
         <>
           <svg class="overlay">

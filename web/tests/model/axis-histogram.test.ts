@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { formatNumber, panSpan, ticks, toPixel, toValue, zoomSpan } from "../../src/model/axis";
+import { formatNumber, formatValue, panSpan, ticks, toPixel, toValue, zoomSpan } from "../../src/model/axis";
 import { jointHeights, logHeights } from "../../src/model/histogram";
 
 const whole = { lo: 0, hi: 1000 };
@@ -30,6 +30,13 @@ describe("the value axis", () => {
     expect(formatNumber(0, 1)).toBe("0");
     expect(formatNumber(100, 1)).toBe("100");
     expect(formatNumber(2.5e9, 1e6)).toBe("2.50e+9");
+  });
+
+  it("writes data values by their range and with their unit", () => {
+    expect(formatValue(40.04, { hounsfield: true, range: [-1024, 3071] })).toBe("40 HU");
+    expect(formatValue(-312.46, { hounsfield: true, range: [-1024, 3071] })).toBe("-312.5 HU");
+    expect(formatValue(0.12345, { hounsfield: false, range: [0, 1] })).toBe("0.123");
+    expect(formatValue(1e-7, { hounsfield: false, range: [0, 1] })).toBe("0");
   });
 });
 

@@ -9,7 +9,9 @@ import {
   keyframesOf,
   moveKeyframe,
   orStill,
+  turnsTwice,
   valuesAt,
+  withoutCamera,
   withTracksOf,
 } from "../../src/model/keyframes";
 
@@ -103,5 +105,32 @@ describe("the number of frames", () => {
     expect(frameCount(undefined)).toBe(0);
     expect(frameCount(emptyAnimation)).toBe(0);
     expect(durationOf({ ...two, frames: 15 })).toBe(0.5);
+  });
+});
+
+describe("a turntable beside keyframes of the camera", () => {
+  const turntable = { seconds: 6, turns: 1 };
+  const moving = capture(
+    capture(undefined, 0, [
+      ["/camera/azimuth_deg", 0],
+      ["/lights/0/intensity", 1],
+    ]),
+    2,
+    [["/camera/azimuth_deg", 90]],
+  );
+
+  it("turns twice where they turn, or go on after it", () => {
+    expect(turnsTwice(undefined)).toBe(false);
+    expect(turnsTwice(moving)).toBe(false);
+    expect(turnsTwice({ ...moving, turntable })).toBe(true);
+    expect(turnsTwice({ ...two, turntable })).toBe(false);
+    expect(turnsTwice({ ...two, turntable: { seconds: 1, turns: 1 } })).toBe(true);
+  });
+
+  it("turns once without them; other keyframes stay", () => {
+    const alone = withoutCamera({ ...moving, turntable });
+    expect(turnsTwice(alone)).toBe(false);
+    expect(alone.turntable).toEqual(turntable);
+    expect(alone.tracks.map((track) => track.field)).toEqual(["/lights/0/intensity"]);
   });
 });

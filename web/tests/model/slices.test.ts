@@ -1,12 +1,17 @@
 import { describe, expect, it } from "vitest";
+import { distance } from "../../src/geometry/vec3";
 import {
   canvasOf,
-  describePosition,
-  fitSlice,
+  commonScale,
+  mostZoom,
+  pannedFraming,
   planeNames,
   planes,
   pointOf,
-  sampleIndex,
+  slicePlace,
+  zoomedFraming,
+  type Framing,
+  type PaneView,
   type SliceHeader,
 } from "../../src/model/slice";
 import { decode, dragWindow, greyTable, percentileWindow } from "../../src/model/window";
@@ -22,17 +27,12 @@ const toward: Record<string, Vec3> = {
   S: [0, 0, 1],
   I: [0, 0, -1],
 };
+const pane: PaneView = { width: 400, height: 300, center_mm: [5, -6, 7], pxPerMm: 3 };
 
 describe("slices on the screen", () => {
-  const placement = fitSlice(header, 400, 400);
-
-  it("fit with square samples in the middle", () => {
-    expect(placement).toEqual({ left: 0, top: 100, zoom: 4 });
-  });
-
   it.each(planeNames)("the %s plane has the patient's sides where its letters say", (name) => {
     const layout = planes[name];
-    const at = (p: Vec3) => canvasOf(layout, header, placement, p);
+    const at = (p: Vec3) => canvasOf(layout, pane, p);
     const middle = at([0, 0, 0]);
     const step = (letter: string) => at(toward[letter]!).map((x, i) => x - middle[i]!);
     expect(step(layout.letters.left)[0]).toBeLessThan(0);
@@ -49,19 +49,66 @@ describe("slices on the screen", () => {
   it.each(planeNames)("the %s plane's places and points are each other's inverse", (name) => {
     const layout = planes[name];
     const p: [number, number, number] = [12, -7, 3];
-    const [x, y] = canvasOf(layout, header, placement, p);
-    const back = pointOf(layout, header, placement, p[layout.normal], x, y);
+    const [x, y] = canvasOf(layout, pane, p);
+    const back = pointOf(layout, pane, p[layout.normal], x, y);
     back.forEach((value, i) => expect(value).toBeCloseTo(p[i]!));
   });
 
-  it("finds samples by their centres", () => {
-    expect(sampleIndex(planes.axial, header, [-99, -40, 0])).toBe(0);
-    expect(sampleIndex(planes.axial, header, [-97.1, -38, 0])).toBe(101);
-    expect(sampleIndex(planes.axial, header, [-101, -40, 0])).toBeUndefined();
+  it.each(planeNames)("the %s plane's samples lie where their points are", (name) => {
+    const layout = planes[name];
+    const { left, top, width, height } = slicePlace(layout, header, pane);
+    expect([width, height]).toEqual([600, 300]);
+    // The first sample's centre, half a sample from the corner; rows toward the head go up.
+    const first: [number, number, number] = [0, 0, 0];
+    first[layout.across] = -99;
+    first[layout.along] = -40;
+    const [x, y] = canvasOf(layout, pane, first);
+    expect(x).toBeCloseTo(left + 3);
+    expect(y).toBeCloseTo(layout.flipped ? top + height - 3 : top + 3);
+  });
+});
+
+describe("what the panes show", () => {
+  const bounds: [Vec3, Vec3] = [
+    [-100, -50, 0],
+    [100, 50, 300],
+  ];
+  const framing: Framing = { center_mm: [0, 0, 150], zoom: 1 };
+
+  it("has one scale, at which every whole plane has room in its pane", () => {
+    const same = { width: 400, height: 300 };
+    // Coronal and sagittal need 300 mm in 300 px, the axial plane would have room at 2 px a mm.
+    expect(commonScale(bounds, { axial: same, coronal: same, sagittal: same })).toBe(1);
+    expect(commonScale(bounds, { axial: same })).toBe(2);
+    expect(commonScale(bounds, { axial: same, coronal: { width: 100, height: 300 }, sagittal: same })).toBe(0.5);
   });
 
-  it("tells positions by the patient's sides", () => {
-    expect(describePosition([-12.34, 0, 5])).toBe("R 12.3  P 0.0  S 5.0");
+  it("is zoomed about the point under the pointer", () => {
+    const about: Vec3 = [30, -20, 40];
+    const near = zoomedFraming(framing, 4, about)!;
+    for (const name of planeNames) {
+      const seen = ({ center_mm, zoom }: Framing) => canvasOf(planes[name], { ...pane, center_mm, pxPerMm: zoom }, about);
+      seen(near).forEach((x, i) => expect(x).toBeCloseTo(seen(framing)[i]!));
+    }
+    expect(near.zoom).toBe(4);
+    expect(zoomedFraming(near, 1e6, about)!.zoom).toBe(mostZoom);
+    expect(zoomedFraming(near, 0.2, about)).toBeNull();
+  });
+
+  it.each(planeNames)("follows a drag in the %s plane", (name) => {
+    const layout = planes[name];
+    const p: Vec3 = [3, 4, 155];
+    const seen = ({ center_mm }: Framing) => canvasOf(layout, { ...pane, center_mm }, p);
+    const moved = pannedFraming(framing, layout, pane.pxPerMm, [12, -9], bounds);
+    const [before, after] = [seen(framing), seen(moved)];
+    expect(after[0] - before[0]).toBeCloseTo(12);
+    expect(after[1] - before[1]).toBeCloseTo(-9);
+    expect(moved.center_mm[layout.normal]).toBe(framing.center_mm[layout.normal]);
+  });
+
+  it("keeps its middle in the volume", () => {
+    const { center_mm } = pannedFraming(framing, planes.axial, 1, [-1e5, 1e5], bounds);
+    expect(distance(center_mm, [100, -50, 150])).toBe(0);
   });
 });
 

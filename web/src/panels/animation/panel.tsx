@@ -10,12 +10,14 @@ import {
   interpolateAll,
   keyframesOf,
   orStill,
+  turnsTwice,
   valuesAt,
+  withoutCamera,
   type CapturePart,
 } from "../../model/keyframes";
 import { send } from "../../state/connection";
 import { edit, newGesture, scene } from "../../state/scene";
-import { exporting } from "../../state/session";
+import { exporting, hello } from "../../state/session";
 import type { Animation, Scene, Track } from "../../state/scene-types";
 import { Button, IconButton, NumberInput } from "../../ui/controls";
 import { Icon, type IconName } from "../../ui/icons";
@@ -103,6 +105,7 @@ export function AnimationPanel() {
         <span class="bar-divider" />
         <Export frames={frameCount(animation)} name={of.volume.path} />
       </div>
+      {turnsTwice(animation) && <TurnsTwice animation={animation!} />}
       <KeyframeStrip of={of} selected={key?.time ?? null} onSelect={setSelected} />
     </div>
   );
@@ -193,6 +196,22 @@ function Turntable({ animation }: { animation: Animation | undefined }) {
   );
 }
 
+/** A turntable beside keyframes of the camera: what comes of it, and a way out. */
+function TurnsTwice({ animation }: { animation: Animation }) {
+  const { turntable, ...alone } = animation;
+  return (
+    <p class="strip-note" role="status">
+      <Icon name="warning" />
+      <span>
+        The turntable turns the camera in addition to its keyframes, and the film ends with it after{" "}
+        {turntable!.seconds} s.
+      </span>
+      <Button onClick={() => set(withoutCamera(animation))}>Replace the keyframes</Button>
+      <Button onClick={() => set(alone)}>Remove the turntable</Button>
+    </p>
+  );
+}
+
 function Timing({ of }: { of: Scene }) {
   const { animation } = of;
   if (!animation) return null;
@@ -225,10 +244,13 @@ function Timing({ of }: { of: Scene }) {
 }
 
 const formats = ["mp4", "webm", "zip"] as const;
-const format = signal<(typeof formats)[number]>("mp4");
+/** Null: not chosen yet. */
+const chosenFormat = signal<(typeof formats)[number] | null>(null);
 
 function Export({ frames, name }: { frames: number; name: string }) {
   const state = exporting.value;
+  const movies = hello.value?.movies ?? true;
+  const format = movies ? (chosenFormat.value ?? "mp4") : "zip";
   const stem =
     name
       .split("/")
@@ -241,7 +263,8 @@ function Export({ frames, name }: { frames: number; name: string }) {
       <span class="bar-group" role="status">
         <progress value={share} aria-label="Writing the animation" />
         <span class="time">
-          {state.frames_done} <small>/ {state.frames}</small>
+          {state.frames_done < state.frames ? state.frames_done : "Writing the file,"}{" "}
+          <small>{state.frames_done < state.frames ? `/ ${state.frames}` : `${state.frames} frames`}</small>
         </span>
         <Button onClick={() => send({ type: "cancel_export" })}>Cancel</Button>
       </span>
@@ -268,12 +291,13 @@ function Export({ frames, name }: { frames: number; name: string }) {
       <select
         class="bar-select"
         aria-label="Format"
-        value={format.value}
-        onChange={(event) => (format.value = event.currentTarget.value as (typeof formats)[number])}
+        title={movies ? undefined : "Movies need ffmpeg where the viewer runs: install ffmpeg, then reload this page"}
+        value={format}
+        onChange={(event) => (chosenFormat.value = event.currentTarget.value as (typeof formats)[number])}
       >
         {formats.map((one) => (
-          <option key={one} value={one}>
-            {one === "zip" ? "PNG (zip)" : one}
+          <option key={one} value={one} disabled={one !== "zip" && !movies}>
+            {one === "zip" ? "PNG (zip)" : movies ? one : `${one}: install ffmpeg`}
           </option>
         ))}
       </select>
@@ -281,7 +305,7 @@ function Export({ frames, name }: { frames: number; name: string }) {
         icon="film"
         disabled={frames === 0}
         title={`${frames} frames`}
-        onClick={() => (endPreview(), send({ type: "export", file: `${stem}.${format.value}` }))}
+        onClick={() => (endPreview(), send({ type: "export", file: `${stem}.${format}` }))}
       >
         Export
       </Button>

@@ -1,9 +1,16 @@
 import { useState } from "preact/hooks";
-import { toHex } from "../../color";
-import { hasOtherRules, readLooks, withLook, writeLooks, type LabelLook } from "../../model/label-rules";
+import {
+  hasOtherRules,
+  readLooks,
+  titleOf,
+  unlabelled,
+  withLook,
+  writeLooks,
+  type LabelLook,
+} from "../../model/label-rules";
 import { mostProxies } from "../../model/rules";
+import { labelColors } from "../../state/label-colors";
 import { edit, newGesture, scene } from "../../state/scene";
-import { hello } from "../../state/session";
 import type { Scene } from "../../state/scene-types";
 import { labels, type LabelName } from "../../state/volume";
 import { Button, ColorField, IconButton, Section, Select, Slider, Toggle } from "../../ui/controls";
@@ -107,10 +114,9 @@ function LabelList({ of, name }: { of: Scene; name: string }) {
   // What no label marks is a part like any other: hiding it leaves the labels.
   const all = listed.some((label) => label.value === 0)
     ? listed
-    : [{ value: 0, name: "", color: "#808080" }, ...listed];
-  const found = all.filter((label) =>
-    matches({ ...label, name: label.name || (label.value === 0 ? "Unlabelled" : "") }, search),
-  );
+    : [unlabelled, ...listed];
+  const found = all.filter((label) => matches({ ...label, name: titleOf(label) }, search));
+  const colors = labelColors.value[name];
   const write = (next: ReadonlyMap<number, LabelLook>, gesture = newGesture("labels")) =>
     edit([["/transfer/rules", writeLooks(rules, name, next)]], gesture);
   const change = (values: readonly number[], by: (label: LabelName) => Partial<LabelLook>, gesture?: string) => {
@@ -198,6 +204,7 @@ function LabelList({ of, name }: { of: Scene; name: string }) {
             key={label.value}
             label={label}
             look={looks.get(label.value) ?? {}}
+            color={colors?.get(label.value)?.color ?? label.color}
             open={open === label.value}
             onOpen={() => setOpen(open === label.value ? null : label.value)}
             onChange={(by, gesture) => change([label.value], () => by, gesture)}
@@ -214,14 +221,14 @@ const asItIs = "";
 function LabelRow(props: {
   label: LabelName;
   look: LabelLook;
+  /** As it is seen. */
+  color: string;
   open: boolean;
   onOpen(): void;
   onChange(by: Partial<LabelLook>, gesture?: string): void;
 }) {
-  const { label, look, onChange } = props;
-  const title = label.name.replaceAll("_", " ") || (label.value === 0 ? "Unlabelled" : `Label ${label.value}`);
-  const material = hello.value?.materials.find((one) => one.name === look.material);
-  const shown = look.color ? toHex(look.color) : (material?.color ?? label.color);
+  const { label, look, color: shown, onChange } = props;
+  const title = titleOf(label);
   const plain = look.color === undefined && look.material === undefined;
   return (
     <li class={look.hidden ? "hidden" : ""}>

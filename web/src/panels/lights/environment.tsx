@@ -2,7 +2,17 @@ import { joinScale, splitScale, toHex } from "../../color";
 import { edit } from "../../state/scene";
 import { hello } from "../../state/session";
 import type { Scene } from "../../state/scene-types";
-import { ColorField, Segmented, Select, Slider, Toggle } from "../../ui/controls";
+import { ColorField, Segmented, Select, Toggle } from "../../ui/controls";
+import { numberFields } from "../number-fields";
+
+/** Name, range, unit and step of the environment's numbers. */
+const EnvironmentNumber = numberFields("/environment", {
+  intensity: { label: "Intensity", min: 0, max: 5, hardMax: 1e9, digits: 3 },
+  rotation_deg: { label: "Rotation", unit: "°", min: -180, max: 180, hardMin: -36000, hardMax: 36000, digits: 1, initial: 0 },
+});
+const BackgroundNumber = numberFields("/camera", {
+  background_blur_deg: { label: "Blur", unit: "°", min: 0, max: 45, digits: 1 },
+});
 
 /** Light from everywhere. */
 export function EnvironmentFields({ of }: { of: Scene }) {
@@ -34,28 +44,8 @@ export function EnvironmentFields({ of }: { of: Scene }) {
         value={hex}
         onChange={(value, gesture) => edit([["/environment/color", joinScale(value, scale)]], gesture)}
       />
-      <Slider
-        label="Intensity"
-        min={0}
-        max={5}
-        hardMax={1e9}
-        digits={3}
-        value={environment.intensity}
-        onChange={(value, gesture) => edit([["/environment/intensity", value]], gesture)}
-      />
-      <Slider
-        label="Rotation"
-        unit="°"
-        min={-180}
-        max={180}
-        hardMin={-36000}
-        hardMax={36000}
-        digits={1}
-        initial={0}
-        disabled={!environment.image}
-        value={environment.rotation_deg}
-        onChange={(value, gesture) => edit([["/environment/rotation_deg", value]], gesture)}
-      />
+      <EnvironmentNumber of={environment} name="intensity" />
+      <EnvironmentNumber of={environment} name="rotation_deg" disabled={!environment.image} />
       <Toggle
         label="Turns with the camera"
         value={environment.attached_to === "camera"}
@@ -96,15 +86,7 @@ export function BackgroundFields({ of }: { of: Scene }) {
         />
       )}
       {background.kind === "environment" && (
-        <Slider
-          label="Blur"
-          unit="°"
-          min={0}
-          max={45}
-          digits={1}
-          value={of.camera.background_blur_deg}
-          onChange={(value, gesture) => edit([["/camera/background_blur_deg", value]], gesture)}
-        />
+        <BackgroundNumber of={of.camera} name="background_blur_deg" />
       )}
     </>
   );

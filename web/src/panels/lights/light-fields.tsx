@@ -4,7 +4,16 @@ import { placed, placeOf, type LightPlace } from "../../model/light-motion";
 import { edit, scene } from "../../state/scene";
 import { frame } from "../../state/frame";
 import type { Attachment, Light, Vec3 } from "../../state/scene-types";
-import { ColorField, Field, NumberInput, Segmented, Slider, Toggle } from "../../ui/controls";
+import { ColorField, Field, NumberInput, Segmented, Toggle } from "../../ui/controls";
+import { numberFields } from "../number-fields";
+
+/** Name, range, unit and step of a light's numbers; where it is is told by direction and distance from the target. */
+const LightNumber = numberFields("/lights", {
+  intensity: { label: "Intensity", min: 0.01, max: 50, hardMin: 0, hardMax: 1e12, logarithmic: true, digits: 3 },
+  azimuthDeg: { label: "Azimuth", unit: "°", min: -180, max: 180, digits: 1 },
+  elevationDeg: { label: "Elevation", unit: "°", min: -89.9, max: 89.9, digits: 1 },
+  distanceMm: { label: "Distance", hint: "From the point that the camera turns about", unit: "mm", min: 1, max: 5000, hardMin: 0.001, hardMax: 1e9, logarithmic: true, digits: 1 },
+});
 
 /** Usual intensities differ by kind: a point's grows with the square of its distance. */
 function intensityRange(light: Light, distance: number): { min: number; max: number } {
@@ -45,16 +54,7 @@ export function LightFields({ light, index }: { light: Light; index: number }) {
         value={hex}
         onChange={(value, gesture) => edit([[`${at}/color`, joinScale(value, beyond)]], gesture)}
       />
-      <Slider
-        label="Intensity"
-        {...range}
-        hardMin={0}
-        hardMax={1e12}
-        logarithmic
-        digits={3}
-        value={light.intensity}
-        onChange={(value, gesture) => edit([[`${at}/intensity`, value]], gesture)}
-      />
+      <LightNumber at={at} of={light} name="intensity" {...range} />
       <Segmented
         label="Attached to"
         value={light.attached_to}
@@ -64,43 +64,18 @@ export function LightFields({ light, index }: { light: Light; index: number }) {
         ]}
         onChange={(to) => edit([[at, reattached(light, to, target)]])}
       />
-      <Slider
-        label="Azimuth"
+      <LightNumber
+        of={place}
+        name="azimuthDeg"
         hint={
           light.attached_to === "world"
             ? "0 is in front of the patient, 90 at the patient's left"
             : "0 is at the eye, 90 to the right"
         }
-        unit="°"
-        min={-180}
-        max={180}
-        digits={1}
-        value={place.azimuthDeg}
-        onChange={(azimuthDeg, gesture) => move({ azimuthDeg }, gesture)}
-      />
-      <Slider
-        label="Elevation"
-        unit="°"
-        min={-89.9}
-        max={89.9}
-        digits={1}
-        value={place.elevationDeg}
-        onChange={(elevationDeg, gesture) => move({ elevationDeg }, gesture)}
-      />
+        onChange={(azimuthDeg, gesture) => move({ azimuthDeg }, gesture)} />
+      <LightNumber of={place} name="elevationDeg" onChange={(elevationDeg, gesture) => move({ elevationDeg }, gesture)} />
       {light.kind !== "directional" && (
-        <Slider
-          label="Distance"
-          hint="From the point that the camera turns about"
-          unit="mm"
-          min={1}
-          max={5000}
-          hardMin={0.001}
-          hardMax={1e9}
-          logarithmic
-          digits={1}
-          value={place.distanceMm}
-          onChange={(distanceMm, gesture) => move({ distanceMm }, gesture)}
-        />
+        <LightNumber of={place} name="distanceMm" onChange={(distanceMm, gesture) => move({ distanceMm }, gesture)} />
       )}
       {light.kind === "rect" && (
         <>

@@ -1,10 +1,11 @@
 import { useState } from "preact/hooks";
+import { toHex } from "../../color";
 import type { Span } from "../../model/axis";
 import { addPoint, pointOpacity, removePoint, replacePoint } from "../../model/curve";
+import { materialColor } from "../../state/label-colors";
 import { edit, newGesture, scene } from "../../state/scene";
-import { hello } from "../../state/session";
 import type { Rule, Scene, TransferPoint } from "../../state/scene-types";
-import { IconButton, Section, Slider } from "../../ui/controls";
+import { IconButton, Section } from "../../ui/controls";
 import { Disclosure } from "../../ui/disclosure";
 import { CurveEditor } from "./curve-editor";
 import { useDomain } from "./domain";
@@ -13,10 +14,18 @@ import { PointFields } from "./point-fields";
 import { Presets } from "./presets";
 import { Proxies } from "./proxies";
 import { RuleFields, RuleList } from "./rule-list";
+import { numberFields } from "../number-fields";
+
+/** Name, range, unit and step of what all points share. */
+const TransferNumber = numberFields("/transfer", {
+  density_scale: { label: "Density", hint: "Multiplies the extinction of all matter", min: 0.01, max: 100, hardMin: 0, hardMax: 1e6, logarithmic: true, digits: 3, initial: 1 },
+  reference_length_mm: { label: "Thickness of the opacities", hint: "A layer this thick has the opacity of the curve", unit: "mm", min: 0.01, max: 20, hardMin: 1e-6, hardMax: 1e6, logarithmic: true, digits: 3 },
+});
 
 /** Colors of materials for what is drawn of rules. */
-function materialColor(name: string): string {
-  return hello.peek()?.materials.find((material) => material.name === name)?.color ?? "#cccccc";
+function drawnColor(name: string): string {
+  const color = materialColor(name);
+  return color ? toHex(color) : "#cccccc";
 }
 
 /** The function that is edited: points of the scene's own curve, of a rule, or of a rule's column. */
@@ -117,7 +126,7 @@ function FunctionEditor({ of, index }: { of: Scene; index: number }) {
           selected={Math.min(column, rule.columns.length - 1)}
           onSelect={setColumn}
           onChange={(columns, gesture) => edit([[`/transfer/rules/${index}/columns`, columns]], gesture)}
-          materialColor={materialColor}
+          materialColor={drawnColor}
         />
       )}
       <CurveEditor
@@ -131,7 +140,7 @@ function FunctionEditor({ of, index }: { of: Scene; index: number }) {
         selected={chosen}
         onSelect={setSelected}
         onChange={change}
-        materialColor={materialColor}
+        materialColor={drawnColor}
         fine={isFine}
       />
       <PointFields
@@ -151,33 +160,9 @@ function Density({ of }: { of: Scene }) {
   const { density_scale, reference_length_mm } = of.transfer;
   return (
     <>
-      <Slider
-        label="Density"
-        hint="Multiplies the extinction of all matter"
-        min={0.01}
-        max={100}
-        hardMin={0}
-        hardMax={1e6}
-        logarithmic
-        digits={3}
-        initial={1}
-        value={density_scale}
-        onChange={(value, gesture) => edit([["/transfer/density_scale", value]], gesture)}
-      />
+      <TransferNumber name="density_scale" value={density_scale} />
       <Disclosure label="What opacities refer to">
-        <Slider
-          label="Thickness of the opacities"
-          hint="A layer this thick has the opacity of the curve"
-          unit="mm"
-          min={0.01}
-          max={20}
-          hardMin={1e-6}
-          hardMax={1e6}
-          logarithmic
-          digits={3}
-          value={reference_length_mm ?? 1}
-          onChange={(value, gesture) => edit([["/transfer/reference_length_mm", value]], gesture)}
-        />
+        <TransferNumber name="reference_length_mm" value={reference_length_mm ?? 1} />
       </Disclosure>
     </>
   );

@@ -27,30 +27,12 @@ interface PointFieldsProps {
   onChange(point: TransferPoint, gesture: string): void;
 }
 
-const coefficients: readonly { key: NumberKey; label: string; min: number; initial: number; hint: string }[] = [
-  { key: "roughness", label: "Roughness", min: 0, initial: 0.4, hint: "Of the surface: 0 is polished, 1 dull" },
-  { key: "metallic", label: "Metallic", min: 0, initial: 1, hint: "Share of metal in the surface" },
-  {
-    key: "specular",
-    label: "Specular",
-    min: 0,
-    initial: 0.5,
-    hint: "Reflectance at normal incidence is 0.08 times this",
-  },
-  {
-    key: "anisotropy",
-    label: "Anisotropy",
-    min: -0.99,
-    initial: 0.5,
-    hint: "Of the medium: above 0 light goes on, below 0 back",
-  },
-  {
-    key: "surface_share",
-    label: "Surface share",
-    min: 0,
-    initial: 0.5,
-    hint: "Multiplies the surface that gradients make; 0: medium alone",
-  },
+const coefficients: readonly { key: NumberKey; label: string; min: number; max: number; initial: number; hint: string }[] = [
+  { key: "roughness", label: "Roughness", min: 0, max: 1, initial: 0.4, hint: "Of the surface: 0 is polished, 1 dull" },
+  { key: "metallic", label: "Metallic", min: 0, max: 1, initial: 1, hint: "Share of metal in the surface" },
+  { key: "specular", label: "Specular", min: 0, max: 1, initial: 0.5, hint: "Reflectance at normal incidence is 0.08 times this" },
+  { key: "anisotropy", label: "Anisotropy", min: -0.99, max: 0.99, initial: 0.5, hint: "Of the medium: above 0 light goes on, below 0 back" },
+  { key: "surface_share", label: "Surface share", min: 0, max: 1, initial: 0.5, hint: "Multiplies the surface that gradients make; 0: medium alone" },
 ];
 
 /** Materials that rules may name: the scene's own, then the library's. */
@@ -145,7 +127,7 @@ export function PointFields({ points, index, kind, domain, referenceMm, onChange
             <Slider
               label={c.label}
               min={c.min}
-              max={c.key === "anisotropy" ? 0.99 : 1}
+              max={c.max}
               step={0.01}
               value={point[c.key] ?? 0}
               onChange={(value, gesture) => onChange({ ...point, [c.key]: value }, gesture)}

@@ -3,11 +3,25 @@ import { edit, newGesture, scene } from "../../state/scene";
 import type { Importance, Proxy, Scene, Visibility } from "../../state/scene-types";
 import { labels, volume } from "../../state/volume";
 import { mostProxies } from "../../model/rules";
-import { Button, Field, IconButton, NumberInput, Section, Segmented, Select, Slider, Toggle } from "../../ui/controls";
+import { Button, Field, IconButton, NumberInput, Section, Segmented, Select, Toggle } from "../../ui/controls";
 import { pickPoint } from "../../view/pick";
 import { useDomain } from "../transfer/domain";
 import { freeName } from "../transfer/proxies";
 import { RangeHistogram } from "./range-histogram";
+import { numberFields } from "../number-fields";
+
+/** Name, range, unit and step of how much gives way. */
+const VisibilityNumber = numberFields("/visibility", {
+  q: { label: "Before the important (q)", min: 0.1, max: 10000, hardMin: 0, hardMax: 1e6, logarithmic: true, digits: 2, initial: 70 },
+  r: { label: "Behind the important (r)", min: 0.1, max: 10000, hardMin: 0, hardMax: 1e6, logarithmic: true, digits: 2, initial: 30 },
+  p: { label: "Keeping matter (p)", min: 0.01, max: 100, hardMin: 1e-6, hardMax: 1e6, logarithmic: true, digits: 3, initial: 1 },
+  lambda: { label: "Protection (lambda)", hint: "How much importance protects matter itself; 0: not at all", min: 0, max: 5, hardMax: 100, step: 0.05, initial: 1 },
+});
+/** The same of one thing that is important. */
+const ImportanceNumber = numberFields("/visibility/important", {
+  importance: { label: "Importance", min: 0, max: 1, step: 0.01, initial: 1 },
+  radius_mm: { label: "Radius", unit: "mm", min: 1, max: 200, hardMin: 0.1, hardMax: 1e6, logarithmic: true, digits: 1 },
+});
 
 /** As the scene reference has them. */
 const initial: Visibility = {
@@ -97,53 +111,10 @@ export function VisibilityPanel() {
       </Section>
       {visibility && (
         <Section title="How much gives way">
-          <Slider
-            label="Before the important (q)"
-            min={0.1}
-            max={10000}
-            hardMin={0}
-            hardMax={1e6}
-            logarithmic
-            digits={2}
-            initial={70}
-            value={visibility.q}
-            onChange={(value, gesture) => edit([["/visibility/q", value]], gesture)}
-          />
-          <Slider
-            label="Behind the important (r)"
-            min={0.1}
-            max={10000}
-            hardMin={0}
-            hardMax={1e6}
-            logarithmic
-            digits={2}
-            initial={30}
-            value={visibility.r}
-            onChange={(value, gesture) => edit([["/visibility/r", value]], gesture)}
-          />
-          <Slider
-            label="Keeping matter (p)"
-            min={0.01}
-            max={100}
-            hardMin={1e-6}
-            hardMax={1e6}
-            logarithmic
-            digits={3}
-            initial={1}
-            value={visibility.p}
-            onChange={(value, gesture) => edit([["/visibility/p", value]], gesture)}
-          />
-          <Slider
-            label="Protection (lambda)"
-            hint="How much importance protects matter itself; 0: not at all"
-            min={0}
-            max={5}
-            hardMax={100}
-            step={0.05}
-            initial={1}
-            value={visibility.lambda}
-            onChange={(value, gesture) => edit([["/visibility/lambda", value]], gesture)}
-          />
+          <VisibilityNumber of={visibility} name="q" />
+          <VisibilityNumber of={visibility} name="r" />
+          <VisibilityNumber of={visibility} name="p" />
+          <VisibilityNumber of={visibility} name="lambda" />
           <Segmented
             label="Light, too"
             value={visibility.lights}
@@ -186,15 +157,7 @@ function ImportanceCard({ of, entry, index }: { of: Scene; entry: Importance; in
       {isLabels && <LabelChoice of={of} proxy={proxy} />}
       {isRegion && <Region entry={entry} at={at} />}
       {!isLabels && !isRegion && <Values of={of} entry={entry} at={at} />}
-      <Slider
-        label="Importance"
-        min={0}
-        max={1}
-        step={0.01}
-        initial={1}
-        value={entry.importance}
-        onChange={(value, gesture) => edit([[`${at}/importance`, value]], gesture)}
-      />
+      <ImportanceNumber at={at} of={entry} name="importance" />
     </div>
   );
 }
@@ -314,12 +277,12 @@ function Region({ entry, at }: { entry: Importance; at: string }) {
         ]}
         onChange={shape}
       />
-      <Field label="Middle" hint="Left, posterior, superior [mm]">
-        {[0, 1, 2].map((i) => (
+      <Field label="Middle" hint="mm toward the patient's sides: R or L, A or P, I or S">
+        {([0, 1, 2] as const).map((i) => (
           <NumberInput
             key={i}
             label={`Middle ${"xyz"[i]}`}
-            digits={1}
+            axis={i}
             value={center[i]!}
             onChange={(value, gesture) =>
               setCenter(
@@ -346,18 +309,7 @@ function Region({ entry, at }: { entry: Importance; at: string }) {
           ))}
         </Field>
       ) : (
-        <Slider
-          label="Radius"
-          unit="mm"
-          min={1}
-          max={200}
-          hardMin={0.1}
-          hardMax={1e6}
-          logarithmic
-          digits={1}
-          value={entry.radius_mm ?? 20}
-          onChange={(value, gesture) => edit([[`${at}/radius_mm`, value]], gesture)}
-        />
+        <ImportanceNumber at={at} name="radius_mm" value={entry.radius_mm ?? 20} />
       )}
       <div class="row-actions">
         <Button

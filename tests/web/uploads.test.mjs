@@ -1,0 +1,158 @@
+// What the user brings: several files that are one volume, folders, and scenes of them.
+import assert from "node:assert/strict";
+import { mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { execFileSync } from "node:child_process";
+import { after, test } from "node:test";
+import { closeBrowser, open, program, quick, writeBall } from "./page.mjs";
+
+after(closeBrowser);
+
+const opened = (viewer, name) => viewer.page.waitForFunction((n) => document.title.startsWith(n), name, { timeout: 60000 });
+
+/** Chooses files, or a folder, as the first screen and the dialog offer. */
+async function choose(viewer, button, paths) {
+  const [chooser] = await Promise.all([viewer.page.waitForEvent("filechooser"), viewer.button(button).click()]);
+  await chooser.setFiles(paths);
+}
+
+/** Drops files and folders of the disk, as a hand would. */
+async function drop(viewer, files) {
+  const session = await viewer.page.context().newCDPSession(viewer.page);
+  const data = { items: [], files, dragOperationsMask: 1 };
+  for (const type of ["dragEnter", "dragOver", "drop"]) await session.send("Input.dispatchDragEvent", { type, x: 200, y: 200, data });
+  await session.detach();
+}
+
+/** A folder in the test's own with a detached NRRD of 24 x 24 x 24 voxels. */
+function writePair(folder) {
+  mkdirSync(folder);
+  writeFileSync(join(folder, "cube.nhdr"), "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 24 24 24\nencoding: raw\nspace: left-posterior-superior\nspace directions: (1,0,0) (0,1,0) (0,0,1)\ndata file: cube.raw\n\n");
+  writeFileSync(join(folder, "cube.raw"), Buffer.alloc(24 ** 3, 200).fill(0, 0, 4000));
+  return ["cube.nhdr", "cube.raw"].map((name) => join(folder, name));
+}
+
+/** A DICOM series of the ball. */
+function writeSeries(folder) {
+  execFileSync(program, ["convert", writeBall(`${folder}.nrrd`), `${folder}/`], { stdio: "pipe" });
+  writeFileSync(join(folder, ".hidden"), "as some systems put into folders");
+  return folder;
+}
+
+test("a header and its voxels are chosen together", async (t) => {
+  const viewer = await open(t, [...quick]);
+  const [header, voxels] = writePair(join(viewer.scratch, "pair"));
+  await choose(viewer, "files", [voxels, header]);
+  await opened(viewer, "cube.nhdr");
+  await viewer.done();
+  // Alone the header says what it needs, and what is open stays.
+  await viewer.page.keyboard.press("Control+o");
+  await choose(viewer, "files", [header]);
+  await viewer.page.getByText(/cube\.raw/).waitFor();
+  assert.match(await viewer.page.title(), /cube\.nhdr/);
+  await viewer.page.keyboard.press("Control+o");
+  await choose(viewer, "files", [header, writeBall(join(viewer.scratch, "ball.nrrd"))]);
+  await viewer.page.getByText(/found ball\.nrrd, cube\.nhdr/).waitFor();
+});
+
+test("a DICOM folder is dropped, or chosen", async (t) => {
+  const viewer = await open(t, [...quick]);
+  const series = writeSeries(join(viewer.scratch, "scan"));
+  const slices = readdirSync(series).filter((name) => !name.startsWith("."));
+  assert.ok(slices.length >= 48, `${slices.length} slices`);
+  await viewer.page.getByText("Open a volume").waitFor();
+  await drop(viewer, [series]);
+  await opened(viewer, "scan");
+  await viewer.done();
+  const facts = await viewer.page.evaluate(async () => (await fetch("/api/volume")).json());
+  assert.deepEqual(facts.size, [48, 48, 48]);
+  await drop(viewer, [writeBall(join(viewer.scratch, "ball.nrrd"))]);
+  await opened(viewer, "ball.nrrd");
+  await drop(viewer, slices.map((name) => join(series, name)));
+  await opened(viewer, "series");
+  await viewer.page.keyboard.press("Control+o");
+  await choose(viewer, "a folder", series);
+  await opened(viewer, "scan");
+  // And where the viewer runs, from the dialog.
+  await viewer.page.keyboard.press("Control+o");
+  await viewer.page.getByRole("dialog").getByRole("button", { name: "scan", exact: true }).click();
+  await viewer.page.getByRole("dialog").getByRole("button", { name: `Open ${slices.length} slices` }).click();
+  await viewer.page.waitForFunction(async (name) => (await (await fetch("/api/scene.json")).json()).volume.path.startsWith(name), viewer.scratch);
+});
+
+test("uploads of many files show how far they are, and can be given up", async (t) => {
+  const viewer = await open(t, [...quick]);
+  const series = writeSeries(join(viewer.scratch, "scan"));
+  let sent = 0;
+  const answers = [];
+  await viewer.page.route("**/api/upload?*", async (route) => {
+    if (++sent > 10) await new Promise((resolve) => answers.push(resolve));
+    await route.continue().catch(() => undefined);  // given up meanwhile
+  });
+  await viewer.page.getByText("Open a volume").waitFor();
+  await drop(viewer, [series]);
+  await viewer.page.getByText("Uploading scan").waitFor();
+  await viewer.page.getByText(/10 of \d+ files/).waitFor();
+  await viewer.button("Cancel the upload").click();
+  await viewer.page.getByText("Open a volume").waitFor();
+  for (const answer of answers) answer();
+  assert.equal(sent, 11, "files are sent after it was given up");
+});
+
+test("a scene of a dropped file names it by its name, finds it again, and is rendered beside it", async (t) => {
+  const viewer = await open(t, [...quick]);
+  const ball = writeBall(join(viewer.scratch, "mine.nrrd"));
+  await viewer.page.getByText("Open a volume").waitFor();
+  await drop(viewer, [ball]);
+  await opened(viewer, "mine.nrrd");
+  await viewer.done();
+  await viewer.page.keyboard.press("3");
+  await viewer.sceneWith((s) => Math.abs(s.camera.azimuth_deg - 90) < 1e-6, "the view from the left");
+  const save = async (name) => {
+    await viewer.button("Scene file").click();
+    const [download] = await Promise.all([viewer.page.waitForEvent("download"), viewer.page.getByRole("menuitem", { name: /Save scene/ }).click()]);
+    await download.saveAs(join(viewer.scratch, name));
+    return readFileSync(join(viewer.scratch, name), "utf8");
+  };
+  const text = await save("saved.json");
+  assert.equal(JSON.parse(text).volume.path, "mine.nrrd");
+  assert.doesNotMatch(text, /voxlume-view/);
+  const told = viewer.page.getByText(/does not contain mine\.nrrd.*beside the scene file/);
+  await told.waitFor();
+  await viewer.button("Dismiss").click();
+  await save("again.json");
+  assert.equal(await told.count(), 0, "told twice");
+  // The link says no more.
+  await viewer.button("Copy a link to this scene").click();
+  await viewer.page.getByText("Link to this scene copied").waitFor();
+  const link = await viewer.page.evaluate(() => navigator.clipboard.readText());
+  const linked = await viewer.page.evaluate(async (hash) => {
+    const bytes = Uint8Array.from(atob(hash.replaceAll("-", "+").replaceAll("_", "/")), (c) => c.charCodeAt(0));
+    return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"))).text();
+  }, link.split("#scene=")[1]);
+  assert.equal(JSON.parse(linked).volume.path, "mine.nrrd");
+
+  // Another volume, then the scene: it finds the upload.
+  await viewer.page.keyboard.press("Control+o");
+  await viewer.page.getByRole("dialog").getByRole("button", { name: /^Phantom/ }).click();
+  await opened(viewer, "phantom");
+  await viewer.load(JSON.parse(text));
+  await opened(viewer, "mine.nrrd");
+  await viewer.sceneWith((s) => Math.abs(s.camera.azimuth_deg - 90) < 1e-6, "the saved view");
+  // And from its own folder, without the viewer.
+  execFileSync(program, ["render", join(viewer.scratch, "saved.json"), "-o", join(viewer.scratch, "picture.png")], { stdio: "pipe" });
+  // Elsewhere it says what is missing.
+  await viewer.load({ ...JSON.parse(text), volume: { path: "gone.nrrd" } });
+  await viewer.page.getByText(/gone\.nrrd.*drop it on the page/).waitFor();
+});
+
+test("a scene and its volume are dropped together", async (t) => {
+  const viewer = await open(t, [...quick]);
+  const ball = writeBall(join(viewer.scratch, "mine.nrrd"));
+  const scene = join(viewer.scratch, "view.json");
+  writeFileSync(scene, JSON.stringify({ version: 1, volume: { path: "mine.nrrd" }, camera: { azimuth_deg: 12 }, image: { spp: 4 } }));
+  await viewer.page.getByText("Open a volume").waitFor();
+  await drop(viewer, [ball, scene]);
+  await opened(viewer, "mine.nrrd");
+  assert.equal((await viewer.scene()).camera.azimuth_deg, 12);
+});
