@@ -35,25 +35,25 @@ std::vector<std::filesystem::path> links_in_folder(const std::filesystem::path& 
   return out;
 }
 
-std::vector<std::filesystem::path> files_named_in_header(const std::filesystem::path& path) {
+std::vector<std::string> files_named_in_header(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::string text(kMostHeaderBytes, '\0');
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(file.gcount()));
-  std::vector<std::filesystem::path> names;
+  std::vector<std::string> names;
   bool listing = false;  // names stand on lines of their own
   for (std::size_t start = 0; start < text.size();) {
     const std::size_t end = std::min(text.find('\n', start), text.size());
     const std::string line = text.substr(start, std::min<std::size_t>(end - start, 8192));
     start = end + 1;
-    if (listing && !trimmed(line).empty()) names.push_back(path.parent_path() / trimmed(line));
+    if (listing && !trimmed(line).empty()) names.push_back(trimmed(line));
     const std::size_t sign = line.find_first_of(":=");
     if (sign == std::string::npos) continue;
     const std::string key = plain_key(line.substr(0, sign));
     if (key != "datafile" && key != "elementdatafile") continue;
     const std::string name = trimmed(line.substr(std::min(sign + 1, line.size())));
     listing = listing || name.starts_with("LIST");
-    if (name != "LOCAL" && !name.starts_with("LIST")) names.push_back(path.parent_path() / name);
+    if (name != "LOCAL" && !name.starts_with("LIST")) names.push_back(name);
   }
   return names;
 }

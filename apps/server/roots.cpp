@@ -51,15 +51,21 @@ fs::path Roots::resolve_to_open(const std::string& text) const {
   const bool is_named = std::find(roots_.begin() + 1, roots_.end(), path) != roots_.end();
   if (is_named) return path;
   std::error_code failed;
-  const bool is_folder = fs::is_directory(path, failed);
-  for (const fs::path& other : is_folder ? links_in_folder(path) : files_named_in_header(path)) {
+  const auto is_inside = [&](const fs::path& other) {
     const fs::path data = fs::weakly_canonical(other, failed);
-    if (failed || !contains(data))
-      throw Error(ErrorCode::kBadParameter, text,
-                  is_folder
-                      ? other.filename().string() + " in it is a file outside the folders of this viewer"
-                      : "its voxels are in a file outside the folders of this viewer");
+    return !failed && contains(data);
+  };
+  if (fs::is_directory(path, failed)) {
+    for (const fs::path& link : links_in_folder(path))
+      if (!is_inside(link))
+        throw Error(ErrorCode::kBadParameter, text,
+                    link.filename().string() + " in it leads to a file outside the folders of this viewer");
+    return path;
   }
+  for (const std::string& name : files_named_in_header(path))
+    if (!is_inside(path.parent_path() / name))
+      throw Error(ErrorCode::kBadParameter, text,
+                  "its voxels are in a file outside the folders of this viewer");
   return path;
 }
 

@@ -114,7 +114,7 @@ TEST_F(CliRefuses, Values) {
       flags({"--size", "10x70000"}, "--size: found 70000"),
       flags({"--camera", "30"}, "--camera: found \"30\", expected azimuth,elevation[,zoom]"),
       flags({"--camera", "30,100"}, "--camera: found 100, expected a number in [-90, 90]"),
-      flags({"--camera", "30,10,0"}, "--camera: found 0, expected a number in (0, "),
+      flags({"--camera", "30,10,0"}, "--camera: found 0, expected a number in [1e-06, "),
       flags({"--shading", "phong"},
             "--shading: found \"phong\", expected one of coexistence, er, phase, brdf"),
       flags({"--projection", "fisheye"}, "--projection: found \"fisheye\""),
