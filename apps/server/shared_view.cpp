@@ -93,7 +93,10 @@ void SharedView::opened(std::shared_ptr<OpenedVolume> volume) {
                                              const SceneDescription& s) { return session->resolved(s); },
                               .check_paths =
                                   [this](SceneDescription& s, const SceneDescription& before) {
-                                    roots_.resolve_paths(s, scene_paths(before));
+                                    const auto trusted = scene_paths(before);
+                                    for_each_path(s, [&](std::string& path) {
+                                      if (!trusted.contains(path)) path = path_to_open(path).string();
+                                    });
                                   }};
   try {
     Document document(std::move(scene), rules);
@@ -222,8 +225,7 @@ void SharedView::take(Viewer&, const LoadMessage& message) {
 
 void SharedView::take(Viewer&, const OpenMessage& message) {
   if (message.path == kPhantomPath) return open(fresh_scene(std::string(kPhantomPath)));
-  const std::filesystem::path path =
-      roots_.resolve_to_open(uploads_.opened_as(roots_.resolve(message.path)).string());
+  const fs::path path = path_to_open(message.path);
   if (lower_extension(path) != ".json") return open(fresh_scene(path.string()));
   SceneDescription scene = read_scene(path);
   find_uploads(scene, path.parent_path());
@@ -283,6 +285,10 @@ void SharedView::take(Viewer& from, const ShownMessage& message) { from.shown(me
 Document& SharedView::open_document() {
   if (!document_) throw Error(ErrorCode::kBadParameter, "", "nothing is open");
   return *document_;
+}
+
+fs::path SharedView::path_to_open(const std::string& path) {
+  return roots_.resolve_to_open(uploads_.opened_as(roots_.resolve(path)).string());
 }
 
 void SharedView::find_uploads(SceneDescription& scene, const fs::path& scene_folder) const {

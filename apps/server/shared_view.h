@@ -108,6 +108,9 @@ class SharedView {
   Json scene_message() const;
   Json edited_message(const Json& sections) const;
   void keep_screen_size(SceneDescription& scene) const;
+  /// What a page means by a path that it may read. Throws Error, those of Roots::resolve_to_open() and
+  /// Uploads::opened_as().
+  std::filesystem::path path_to_open(const std::string& path);
   /// Completes paths that are the names of uploads. Of a scene file in `scene_folder` what lies beside it
   /// comes first, of one that a page has (empty) the uploads. Throws Error kFileNotFound where there is
   /// neither.

@@ -192,6 +192,21 @@ TEST_F(UploadsToServer, SetsThatCannotBeOpenedSayWhy) {
   EXPECT_THAT(open_failure(page, send_set("o", folder_ / "out")), HasSubstr("outside"));
 }
 
+TEST_F(UploadsToServer, ASetOfLabelsBringsTheirNames) {
+  Page page(start_with_ramp());
+  fs::create_directories(folder_ / "atlas");
+  for (const char* name : {"labels.nrrd", "labels.txt"}) fs::copy(files_ / name, folder_ / "atlas" / name);
+  page.send(edit(1, "/labels", {{"path", send_set("l", folder_ / "atlas")}}));
+  const json edited = page.next("edited");
+  EXPECT_THAT(edited["sections"]["labels"]["path"].get<std::string>(),
+              testing::EndsWith("/scan/labels.nrrd"));
+  EXPECT_EQ(json::parse(get(*address_, "/api/labels").body)["labels"][0]["name"], "left");
+  // No way out of the folder by its name.
+  page.send(edit(2, "/labels",
+                 {{"path", edited["sections"]["labels"]["path"].get<std::string>() + "/../../../.."}}));
+  EXPECT_THAT(page.next("refused")["message"].get<std::string>(), HasSubstr("outside"));
+}
+
 TEST_F(UploadsToServer, SetsStayInTheirFolderAndLimits) {
   server::ServerOptions small = options();
   small.most_upload_bytes = 1000;

@@ -156,3 +156,16 @@ test("a scene and its volume are dropped together", async (t) => {
   await opened(viewer, "mine.nrrd");
   assert.equal((await viewer.scene()).camera.azimuth_deg, 12);
 });
+
+test("labels of this computer are added to the volume", async (t) => {
+  const viewer = await open(t, (scratch) => [writeBall(join(scratch, "ball.nrrd")), ...quick]);
+  await viewer.done();
+  const labels = writeBall(join(viewer.scratch, "parts.nrrd")), names = join(viewer.scratch, "parts.txt");
+  writeFileSync(names, "200 core 255 0 0\n");
+  await viewer.panel("Labels");
+  await viewer.button("Label volume from a file").click();
+  await choose(viewer, "Upload from this computer", [labels, names]);
+  await viewer.page.getByRole("button", { name: /core/ }).first().waitFor();
+  const { proxies } = await viewer.scene();
+  assert.deepEqual(proxies.map(({ name, path, lookup }) => [name, path, lookup]), [["parts", "parts.nrrd", "nearest"]]);
+});

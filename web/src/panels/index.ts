@@ -19,7 +19,7 @@ export interface Panel {
   title: string;
   icon: IconName;
   component: ComponentType;
-  /** Side: beside the picture, 320 px wide, scrolls. Bottom: below it, over its whole width, 200 px high. */
+  /** Side: beside the picture, 320 px wide, scrolls. Bottom: below it, over its whole width, as high as it needs. */
   place: "side" | "bottom";
 }
 

@@ -63,26 +63,38 @@ async function openSceneFile(file: File): Promise<void> {
 }
 
 /** Uploads files, which are one volume together where they are several: a header and its voxels, or the slices of a
- * series, and opens that. `folder` is what they are called together. */
-export async function openFiles(files: readonly NamedFile[], folder = "series"): Promise<void> {
+ * series. Resolves to the path to open; to null where that failed, which is told. `folder` is what they are called
+ * together. */
+export async function uploaded(files: readonly NamedFile[], folder = "series"): Promise<string | null> {
   const first = files[0];
-  if (!first || upload.peek()) return;
-  if (files.length === 1 && /\.json$/i.test(first.name)) return openSceneFile(first.file);
-  if (files.length > kMostFiles)
-    return showToast({ tone: "error", text: `These are ${files.length} files; expected at most ${kMostFiles}` });
-  const set: Record<string, string> = files.length > 1 ? { set: crypto.getRandomValues(new Uint32Array(4)).join("-"), folder } : {};
-  const name = files.length > 1 ? folder : first.name;
+  if (!first || upload.peek()) return null;
+  if (files.length > kMostFiles) {
+    showToast({ tone: "error", text: `These are ${files.length} files; expected at most ${kMostFiles}` });
+    return null;
+  }
+  const several = files.length > 1;
+  const set: Record<string, string> = several ? { set: crypto.getRandomValues(new Uint32Array(4)).join("-"), folder } : {};
+  const name = several ? folder : first.name;
   const bytes = files.reduce((sum, { file }) => sum + file.size, 0);
   upload.value = { name, files: files.length, done: 0, bytes, sent: 0, cancel: () => undefined };
   try {
-    let path = "";
+    let path: string | null = null;
     for (const file of files) path = await send(file, set);
-    openPath(path);
+    return path;
   } catch (error) {
     if (error) showToast({ tone: "error", text: `${name}: ${(error as Error).message}` });
+    return null;
   } finally {
     upload.value = null;
   }
+}
+
+/** Uploads files and opens what they are together; a scene alone is loaded. */
+export async function openFiles(files: readonly NamedFile[], folder?: string): Promise<void> {
+  const first = files[0];
+  if (first && files.length === 1 && /\.json$/i.test(first.name)) return openSceneFile(first.file);
+  const path = await uploaded(files, folder);
+  if (path) openPath(path);
 }
 
 /** "scan/CT/1.dcm" is CT-1.dcm of scan. What is hidden, as some systems put into folders, is left out. */
@@ -92,20 +104,39 @@ export function namedInFolder(files: readonly { path: string; file: File }[]): N
     .filter(({ hidden }) => !hidden);
 }
 
-/** Lets the user choose files, or the files of a folder. */
-export function pickFiles({ accept = "", folder = false } = {}): void {
+/** Lets the user choose files, or a folder, and hands on its files. */
+function askForFiles(take: (files: File[]) => void, { accept = "", folder = false } = {}): void {
   const input = document.createElement("input");
   input.type = "file";
   input.multiple = true;
   input.accept = accept;
   input.webkitdirectory = folder;
-  input.onchange = () => {
-    const files = [...(input.files ?? [])];
-    if (!folder) return void openFiles(files.map((file) => ({ name: file.name, file })));
-    const inFolder = files.map((file) => ({ path: file.webkitRelativePath, file }));
-    void openFiles(namedInFolder(inFolder), inFolder[0]?.path.split("/")[0]);
-  };
+  input.onchange = () => take([...(input.files ?? [])]);
   input.click();
+}
+
+const withNames = (files: readonly File[]): NamedFile[] => files.map((file) => ({ name: file.name, file }));
+
+/** Opens files that the user chooses. */
+export function pickFiles(accept = ""): void {
+  askForFiles((files) => void openFiles(withNames(files)), { accept });
+}
+
+/** Opens a folder that the user chooses. */
+export function pickFolder(): void {
+  askForFiles(
+    (files) => {
+      const inFolder = files.map((file) => ({ path: file.webkitRelativePath, file }));
+      void openFiles(namedInFolder(inFolder), inFolder[0]?.path.split("/")[0]);
+    },
+    { folder: true },
+  );
+}
+
+/** Uploads files that the user chooses, and hands on their path. */
+export function pickUpload(take: (path: string) => void): void {
+  const stem = (files: readonly File[]) => files[0]?.name.replace(/\..*/, "") || undefined;
+  askForFiles((files) => void uploaded(withNames(files), stem(files)).then((path) => path && take(path)));
 }
 
 /** Opens the scene of the page's own address, once: reloading later keeps what has been changed since. */

@@ -6,7 +6,7 @@ import { Button } from "../ui/controls";
 import { Dialog } from "../ui/dialog";
 import { Icon } from "../ui/icons";
 import { FileBrowser } from "./file-browser";
-import { pickFiles, upload } from "./files";
+import { pickFiles, pickFolder, upload } from "./files";
 
 /** Choosing what to open: as a whole screen while nothing is, and as a dialog later. */
 
@@ -42,18 +42,18 @@ function Choices({ onOpen }: { onOpen?(): void }) {
 }
 
 function FromHere({ onOpen }: { onOpen?(): void }) {
-  const pick = (folder: boolean) => () => {
-    pickFiles({ folder });
+  const pick = (choose: () => void) => () => {
+    choose();
     onOpen?.();
   };
   return (
     <div class="from-here">
       <Icon name="upload" />
       <span>Drop a volume, a DICOM folder or a scene anywhere on this page, or choose</span>
-      <Button title="Several where they are one volume: slices, or a header and its voxels" onClick={pick(false)}>
+      <Button title="Several where they are one volume: slices, or a header and its voxels" onClick={pick(pickFiles)}>
         files
       </Button>
-      <Button onClick={pick(true)}>a folder</Button>
+      <Button onClick={pick(pickFolder)}>a folder</Button>
     </div>
   );
 }

@@ -87,7 +87,7 @@ export function TopBar() {
         icon="save"
         items={[
           { label: "Save scene", hint: "All settings, as JSON", icon: "download", disabled: none, run: saveScene },
-          { label: "Load scene", hint: "From a file of this computer", icon: "upload", run: () => pickFiles({ accept: ".json" }) },
+          { label: "Load scene", hint: "From a file of this computer", icon: "upload", run: () => pickFiles(".json") },
         ]}
       />
       <IconButton
