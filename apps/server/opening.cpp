@@ -61,8 +61,7 @@ void Opening::read(const SceneDescription& scene, std::uint64_t number) {
     opened->numbering = std::make_shared<FrameNumbering>();
     LiveListener listener = session_listener(number, opened->numbering);
     listener.preparing = progress("preparing");
-    opened->session =
-        std::make_unique<LiveSession>(scene, std::move(volume), std::move(listener), options_);
+    opened->session = std::make_unique<LiveSession>(scene, std::move(volume), std::move(listener), options_);
     opened->sides = std::make_unique<SideVolumes>(opened->session->session().volume());
     tell(number, [this, number, opened] {
       shown_ = number;

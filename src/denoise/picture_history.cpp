@@ -363,8 +363,9 @@ void PictureHistory::blend(const DenoiseFrame& frame, DenoisedFrame& picture) {
     });
     std::swap(memory_, now_);
   } else {
-    for_rows(frame.height,
-             [&](int y) { HWY_DYNAMIC_DISPATCH(begin_row)(frame, variance_, y, picture, memory_); });
+    for_rows(frame.height, [&](int y) {
+      HWY_DYNAMIC_DISPATCH(begin_row)(frame, variance_, y, picture, memory_);
+    });
   }
   add_residual(picture);
   camera_before_ = frame.camera;

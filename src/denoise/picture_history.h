@@ -55,7 +55,7 @@ class PictureHistory {
   Plane variance_;  ///< of the plain means' luminance, averaged around a pixel
   PictureMemory memory_;
   PictureMemory prior_, now_;  ///< these and the next two are empty until a frame follows another
-  Planes3 prior_mean_;  ///< of prior_.filtered around a pixel
+  Planes3 prior_mean_;         ///< of prior_.filtered around a pixel
   Innovation off_;
   Planes3 restored_;  ///< of the residual, what all pixels around one have
   Plane error_;       ///< working space
