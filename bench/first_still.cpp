@@ -1,9 +1,9 @@
-// How good moving pictures are, and from how many samples on a still one is better: errors against a converged
-// picture, as the page shows both. A moving picture is traced small, one sample a pixel, denoised with the
-// frames before it, and drawn at full size; a still is denoised alone. `smooth` is the error where the converged
-// picture is smooth (the half of all 8 x 8 pixels that vary least, background aside), which shows as mottles: a
-// moving picture errs at edges above all. Prints JSON.
-// Usage: voxlume_first_still VOLUME PRESET [DENOISER [WIDTHxHEIGHT [SPP]]]
+// How good moving pictures are, and from how many samples on a still one is better: errors against a
+// converged picture, as the page shows both. A moving picture is traced small, one sample a pixel, denoised
+// with the frames before it, and drawn at full size; a still is denoised alone. `smooth` is the error where
+// the converged picture is smooth (the half of all 8 x 8 pixels that vary least, background aside), which
+// shows as mottles: a moving picture errs at edges above all. Prints JSON. Usage: voxlume_first_still VOLUME
+// PRESET [DENOISER [WIDTHxHEIGHT [SPP]]]
 #include <cstdio>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -25,7 +25,9 @@ using Json = nlohmann::ordered_json;
 Image on_screen(const Image& linear, const SceneDescription& scene, int width, int height) {
   const Image8 shown = tone_map(linear, {scene.image.exposure_ev, scene.image.tone_curve, false, false});
   Image out(width, height);
-  const auto at = [](int i, int count, int from) { return std::clamp((i + 0.5) * from / count - 0.5, 0.0, from - 1.0); };
+  const auto at = [](int i, int count, int from) {
+    return std::clamp((i + 0.5) * from / count - 0.5, 0.0, from - 1.0);
+  };
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const double u = at(x, width, shown.width), v = at(y, height, shown.height);
@@ -33,7 +35,8 @@ Image on_screen(const Image& linear, const SceneDescription& scene, int width, i
       const int j = std::min(static_cast<int>(v), std::max(0, shown.height - 2));
       for (int c = 0; c < 3; ++c) {
         const auto value = [&](int dx, int dy) {
-          return static_cast<double>(shown.values[static_cast<std::size_t>(((j + dy) * shown.width + i + dx) * 3 + c)]);
+          return static_cast<double>(
+              shown.values[static_cast<std::size_t>(((j + dy) * shown.width + i + dx) * 3 + c)]);
         };
         const double top = value(0, 0) + (u - i) * (value(1, 0) - value(0, 0));
         const double bottom = value(0, 1) + (u - i) * (value(1, 1) - value(0, 1));
@@ -131,7 +134,9 @@ class Study {
       session_.compile(std::move(frame));
       last = traced(1, &denoiser);
     }
-    return {{"shrink", shrink}, {"turning", turning}, {"standing", standing},
+    return {{"shrink", shrink},
+            {"turning", turning},
+            {"standing", standing},
             {"error", error(on_screen(last, scene(), full.width, full.height))}};
   }
 
@@ -187,7 +192,10 @@ int main(int argc, char** argv) {
     if (argc > 4) std::sscanf(argv[4], "%dx%d", &scene.image.width, &scene.image.height);
     Study study(scene, open_volume(scene.volume));
     study.make_reference(argc > 5 ? std::atoi(argv[5]) : 512);
-    Json out{{"preset", argv[2]}, {"denoiser", scene.render.denoise}, {"moving", Json::array()}, {"stills", Json::array()}};
+    Json out{{"preset", argv[2]},
+             {"denoiser", scene.render.denoise},
+             {"moving", Json::array()},
+             {"stills", Json::array()}};
     for (const double shrink : {1.5, 2.0, 3.0, 4.0})
       for (const auto& [turning, standing] : {std::pair{1, 0}, {20, 0}, {20, 10}})
         out["moving"].push_back(study.moving_error(shrink, turning, standing));

@@ -42,7 +42,8 @@ int convert(const ConvertRequest& request) {
   ProgressLine progress;
   progress.show("reading " + request.input);
   Volume volume;
-  with_scene_name(request.input, [&] { volume = open_volume(scene.volume, progress.of("reading " + request.input)); });
+  with_scene_name(request.input,
+                  [&] { volume = open_volume(scene.volume, progress.of("reading " + request.input)); });
   progress.clear();
   print_warnings(volume.warnings);
   progress.show("writing " + request.output);

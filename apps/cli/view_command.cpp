@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "base/memory.h"
 #include "cli/commands.h"
 #include "cli/open_browser.h"
 #include "cli/scene_flags.h"
@@ -85,6 +86,7 @@ int view(const ViewRequest& request) {
   options.most_upload_bytes = static_cast<std::uint64_t>(request.max_upload_gb * 1e9);
   options.live.threads = request.threads;
   options.live.frame_budget_s = kFrameBudget_s;
+  give_back_large_blocks();
   server::Server server(options);
   if (!server::is_loopback(request.address))
     fmt::print(stderr,

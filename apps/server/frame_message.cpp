@@ -66,7 +66,8 @@ FrameMessage FrameCoder::code(std::shared_ptr<const LiveFrame> frame, const Fram
   if (frame->moving && frame->frame_s > 0)
     mean_frame_s_ =
         mean_frame_s_ > 0 ? mean_frame_s_ + kWeight * (frame->frame_s - mean_frame_s_) : frame->frame_s;
-  const bool jpeg = (frame->moving || frame->hurried) && frame->picture.channels == 3;  // JPEG has no transparency
+  const bool jpeg =
+      (frame->moving || frame->hurried) && frame->picture.channels == 3;  // JPEG has no transparency
   const std::string picture = jpeg ? jpeg_bytes(frame->picture) : png_bytes(frame->picture);
   const std::string text = header(*frame, numbering, jpeg, mean_frame_s_ > 0 ? 1 / mean_frame_s_ : 0).dump();
   std::string bytes;

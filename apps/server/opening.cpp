@@ -61,8 +61,7 @@ void Opening::read(const SceneDescription& scene, std::uint64_t number) {
     opened->numbering = std::make_shared<FrameNumbering>();
     LiveListener listener = session_listener(number, opened->numbering);
     listener.preparing = progress("preparing");
-    opened->session =
-        std::make_unique<LiveSession>(scene, std::move(volume), std::move(listener), options_);
+    opened->session = std::make_unique<LiveSession>(scene, std::move(volume), std::move(listener), options_);
     opened->sides = std::make_unique<SideVolumes>(opened->session->session().volume());
     const Session& session = opened->session->session();
     opened->joint = std::make_unique<JointHistograms>(session.volume(), session.statistics());

@@ -26,9 +26,9 @@ struct OpenedVolume {
 
 /// How far an open is.
 struct OpeningStatus {
-  std::string stage;    ///< "reading", "preparing", or "failed"
-  std::string name;     ///< of the volume's file or folder
-  std::string message;  ///< what to do when it failed
+  std::string stage;            ///< "reading", "preparing", or "failed"
+  std::string name;             ///< of the volume's file or folder
+  std::string message;          ///< what to do when it failed
   std::optional<double> share;  ///< of the stage, where it is known
 };
 

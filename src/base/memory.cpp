@@ -1,6 +1,9 @@
 #include "base/memory.h"
 
 #include <unistd.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include <algorithm>
 #include <fstream>
@@ -42,6 +45,13 @@ std::uint64_t group_available_bytes() {
 
 std::uint64_t available_memory_bytes() {
   return std::min(machine_available_bytes(), group_available_bytes());
+}
+
+void give_back_large_blocks() {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, 4 << 20);
+  mallopt(M_TRIM_THRESHOLD, 64 << 20);  // smaller blocks, of moving pictures, are taken again at once
+#endif
 }
 
 }  // namespace voxlume

@@ -174,6 +174,23 @@ HWY_INLINE F gain(hn::Mask<Floats> known, F prior_variance, F change, F noise, f
   return hn::IfThenElse(known, k, hn::Set(kD, 1.0f));
 }
 
+/// The memory of a frame with nothing before it; `picture` keeps its filtered part.
+void begin_row(const DenoiseFrame& frame, const Plane& variance, int y, DenoisedFrame& picture,
+               PictureMemory& now) {
+  for_row(frame.width, [&](int x, std::size_t lanes) {
+    const F v = load(variance, x, y), alpha = load(picture.alpha, x, y);
+    const F3 filtered = load_filtered(frame, picture, x, y);
+    store(filtered, now.filtered, x, y, lanes);
+    store(sub(load(frame.radiance, x, y), filtered), now.residual, x, y, lanes);
+    store(alpha, now.alpha, x, y, lanes);
+    store(hn::Sub(load(frame.alpha, x, y), alpha), now.alpha_residual, x, y, lanes);
+    store(hn::Mul(v, hn::Set(kD, kFilteredVariance)), now.filtered_variance, x, y, lanes);
+    store(v, now.residual_variance, x, y, lanes);
+    store(load(frame.depth_mm, x, y), now.depth_mm, x, y, lanes);
+    store(filtered, picture.radiance, x, y, lanes);
+  });
+}
+
 /// The memory of this frame; `picture` gets its filtered part.
 void update_row(const DenoiseFrame& frame, const PictureMemory& prior, const Planes3& prior_mean,
                 const Innovation& off, const Plane& variance, int y, DenoisedFrame& picture,
@@ -263,6 +280,7 @@ namespace voxlume {
 HWY_EXPORT(luminance_row);
 HWY_EXPORT(variance_row);
 HWY_EXPORT(predict_row);
+HWY_EXPORT(begin_row);
 HWY_EXPORT(update_row);
 HWY_EXPORT(restore_row);
 HWY_EXPORT(add_residual_row);
@@ -285,12 +303,20 @@ void PictureMemory::resize(int width, int height) {
 }
 
 void PictureHistory::resize(int width, int height) {
-  if (variance_.width() == width && variance_.height() == height) return;
-  for (PictureMemory* memory : {&memory_, &prior_, &now_}) memory->resize(width, height);
-  prior_mean_ = restored_ = off_.filtered = make_planes3(width, height);
+  if (variance_.width() != width || variance_.height() != height) {
+    variance_ = error_ = Plane(width, height);
+    restored_ = make_planes3(width, height);
+    memory_.resize(width, height);
+    now_ = prior_ = {};
+    prior_mean_ = {};
+    off_ = {};
+    has_memory_ = false;
+  }
+  // Pictures of which none follows another need no more than that.
+  if (!has_memory_ || off_.residual.width() == width) return;
+  for (PictureMemory* memory : {&now_, &prior_}) memory->resize(width, height);
+  prior_mean_ = off_.filtered = make_planes3(width, height);
   off_.filtered_squared = off_.residual = off_.residual_squared = Plane(width, height);
-  variance_ = error_ = Plane(width, height);
-  has_memory_ = false;
 }
 
 void PictureHistory::estimate_variance(const DenoiseFrame& frame) {
@@ -301,10 +327,6 @@ void PictureHistory::estimate_variance(const DenoiseFrame& frame) {
 }
 
 void PictureHistory::predict(const DenoiseFrame& frame, const DenoisedFrame& picture) {
-  if (!has_memory_) {
-    prior_.residual_variance.fill(PictureMemory::kUnknown);
-    return;
-  }
   const Reprojection& moved = reproject_(frame.camera, frame.depth_mm, camera_before_);
   for_rows(frame.height, [&](int y) {
     HWY_DYNAMIC_DISPATCH(predict_row)
@@ -320,26 +342,32 @@ void PictureHistory::predict(const DenoiseFrame& frame, const DenoisedFrame& pic
 
 void PictureHistory::add_residual(DenoisedFrame& picture) {
   const int height = picture.alpha.height();
-  for (int c = 0; c < 3; ++c) local_mean_(now_.residual[c], restored_[c]);
-  local_mean_(now_.residual_variance, error_);
+  for (int c = 0; c < 3; ++c) local_mean_(memory_.residual[c], restored_[c]);
+  local_mean_(memory_.residual_variance, error_);
   for_rows(height, [&](int y) {
-    HWY_DYNAMIC_DISPATCH(restore_row)(now_, error_, y, restored_, picture, error_);
+    HWY_DYNAMIC_DISPATCH(restore_row)(memory_, error_, y, restored_, picture, error_);
   });
   local_mean_(error_, error_);
   for_rows(height, [&](int y) {
-    HWY_DYNAMIC_DISPATCH(add_residual_row)(now_, restored_, error_, y, picture);
+    HWY_DYNAMIC_DISPATCH(add_residual_row)(memory_, restored_, error_, y, picture);
   });
 }
 
 void PictureHistory::blend(const DenoiseFrame& frame, DenoisedFrame& picture) {
   resize(frame.width, frame.height);
   estimate_variance(frame);
-  predict(frame, picture);
-  for_rows(frame.height, [&](int y) {
-    HWY_DYNAMIC_DISPATCH(update_row)(frame, prior_, prior_mean_, off_, variance_, y, picture, now_);
-  });
+  if (has_memory_) {
+    predict(frame, picture);
+    for_rows(frame.height, [&](int y) {
+      HWY_DYNAMIC_DISPATCH(update_row)(frame, prior_, prior_mean_, off_, variance_, y, picture, now_);
+    });
+    std::swap(memory_, now_);
+  } else {
+    for_rows(frame.height, [&](int y) {
+      HWY_DYNAMIC_DISPATCH(begin_row)(frame, variance_, y, picture, memory_);
+    });
+  }
   add_residual(picture);
-  std::swap(memory_, now_);
   camera_before_ = frame.camera;
   has_memory_ = true;
 }

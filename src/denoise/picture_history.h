@@ -53,8 +53,9 @@ class PictureHistory {
   Reprojector reproject_;
   LocalMean local_mean_;
   Plane variance_;  ///< of the plain means' luminance, averaged around a pixel
-  PictureMemory memory_, prior_, now_;
-  Planes3 prior_mean_;  ///< of prior_.filtered around a pixel
+  PictureMemory memory_;
+  PictureMemory prior_, now_;  ///< these and the next two are empty until a frame follows another
+  Planes3 prior_mean_;         ///< of prior_.filtered around a pixel
   Innovation off_;
   Planes3 restored_;  ///< of the residual, what all pixels around one have
   Plane error_;       ///< working space

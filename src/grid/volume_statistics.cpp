@@ -162,7 +162,8 @@ template <class T>
 VolumeStatistics statistics_of_short(const T* voxels, const GridView& grid, const Progress& progress) {
   constexpr int kLowest = std::numeric_limits<T>::lowest();
   ProgressCounter slices_done(grid.size[2], progress);
-  const Histograms counts = count_voxels(voxels, grid, [](T v) { return int{v} - kLowest; }, slices_done);
+  const Histograms counts = count_voxels(
+      voxels, grid, [](T v) { return int{v} - kLowest; }, slices_done);
   VolumeStatistics out;
   for (int b = 0; b < kBins; ++b)
     if (counts.values[b]) out.histogram.emplace_back(static_cast<float>(b + kLowest), counts.values[b]);

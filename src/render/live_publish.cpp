@@ -100,11 +100,14 @@ void LiveSession::Loop::publish(const RenderState& state, Shown how) {
   frame->camera = camera_lps(live_.session_.compiled());
   frame->width = scene_->image.width;
   frame->height = scene_->image.height;
-  frame->spp = static_cast<double>(state.film.total_samples()) / static_cast<double>(state.film.pixel_count());
+  frame->spp =
+      static_cast<double>(state.film.total_samples()) / static_cast<double>(state.film.pixel_count());
   if (!frame->moving && frame->spp >= kNoiseFrom) frame->noise = state.film.noise();
   frame->limit = greatest(*frame);
+  const bool last = frame->done;
   hand_out(std::move(frame), how);
   show_s_ = seconds(framed_ - begin);
+  if (last) denoiser_.reset();  // its planes take more than the film, and a moving picture needs others
 }
 
 /// The moving picture on screen, developed as the scene says now.

@@ -8,7 +8,9 @@ namespace voxlume {
 
 LiveSession::LiveSession(const SceneDescription& scene, Volume volume, LiveListener listener,
                          LiveOptions options)
-    : session_(scene, std::move(volume), listener.preparing), listener_(std::move(listener)), options_(options) {
+    : session_(scene, std::move(volume), listener.preparing),
+      listener_(std::move(listener)),
+      options_(options) {
   thread_ = std::thread([this] { Loop(*this).run(); });
 }
 

@@ -88,8 +88,8 @@ struct ChildOutcome {
   bool deadlocked = false;  ///< on a lock another thread held when it was forked: worth another try
 };
 
-/// Takes the lines off the front of what the child says: how many percent it has read. What follows them, in one
-/// line without an end, is its result.
+/// Takes the lines off the front of what the child says: how many percent it has read. What follows them, in
+/// one line without an end, is its result.
 void take_percents(std::string& said, const Progress& progress) {
   for (std::size_t end; (end = said.find('\n')) != std::string::npos; said.erase(0, end + 1))
     if (progress) progress(0.01 * std::atoi(said.c_str()));

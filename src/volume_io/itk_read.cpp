@@ -22,7 +22,9 @@ class Hdf5Reader : public VolumeReader {
     return header;
   }
 
-  void read_voxels(void* voxels, const Progress&) override { read_itk_voxels(*io_, path_, voxels, stored_bytes_); }
+  void read_voxels(void* voxels, const Progress&) override {
+    read_itk_voxels(*io_, path_, voxels, stored_bytes_);
+  }
 
  private:
   std::filesystem::path path_;

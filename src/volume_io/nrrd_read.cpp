@@ -45,7 +45,8 @@ class NrrdReader : public VolumeReader {
     } else if ((encoding == "gzip" || encoding == "gz") && has_one_data_file() &&
                fields_.value("byteskip").empty()) {
       // ITK's reader does not verify the checksum, nor notice that the end of the stream is missing.
-      read_deflated(data_path(), is_attached() ? fields_.header_bytes : 0, 0, voxels, stored_bytes_, progress);
+      read_deflated(data_path(), is_attached() ? fields_.header_bytes : 0, 0, voxels, stored_bytes_,
+                    progress);
     } else {
       return read_itk_voxels(*io_, path_, voxels, stored_bytes_);
     }

@@ -33,14 +33,14 @@ struct VolumeHeader {
 class VolumeReader {
  public:
   virtual ~VolumeReader() = default;
-  /// Sizes are >= 1; geometry is as the file has it, not yet checked. `progress`, here and below, may be empty;
-  /// readers of many files tell of those that they have looked at, the others of nothing.
+  /// Sizes are >= 1; geometry is as the file has it, not yet checked. `progress`, here and below, may be
+  /// empty; readers of many files tell of those that they have looked at, the others of nothing.
   virtual VolumeHeader read_header(const Progress& progress) = 0;
   /// Where the file itself has the voxels in the header's type and the machine's byte order; none when they
   /// must be read. To be asked after read_header, which has seen that the file is long enough.
   virtual std::optional<VoxelsInFile> voxels_in_file() const { return std::nullopt; }
-  /// Called at most once, after read_header. `voxels` has room for stored_bytes() and is zero. Tells of the share
-  /// of the voxels that is there, where that is known.
+  /// Called at most once, after read_header. `voxels` has room for stored_bytes() and is zero. Tells of the
+  /// share of the voxels that is there, where that is known.
   virtual void read_voxels(void* voxels, const Progress& progress) = 0;
 };
 

@@ -52,7 +52,8 @@ TEST_F(CliTest, InfoForPeople) {
 }
 
 TEST_F(CliTest, InfoTellsATerminalHowFarItIs) {
-  if (std::system("script --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "no script, which makes a terminal";
+  if (std::system("script --version > /dev/null 2>&1") != 0)
+    GTEST_SKIP() << "no script, which makes a terminal";
   write("large.raw", std::string(2 * 100 * 100 * 60, 'x'));
   const std::string info = std::string(VOXLUME_BINARY) + " info large.raw --raw 100x100x60,i16,1,1,1,big";
   const std::string command = "cd '" + folder_.string() + "' && script -qec '" + info + "' seen > /dev/null";

@@ -115,7 +115,8 @@ TEST(Environment, AnUpdateKeepsThePictureAlone) {
   Lights updated = compile({}, d, &image);
   const Vec3f* const texels = updated.view().environment.texels;
   Rng rng(8, 0, 0, 0);
-  for (const auto samples : {EnvironmentSamples::kWhole, EnvironmentSamples::kExcess, EnvironmentSamples::kUniform})
+  for (const auto samples :
+       {EnvironmentSamples::kWhole, EnvironmentSamples::kExcess, EnvironmentSamples::kUniform})
     for (const double intensity : {2.0, 0.0, 0.3}) {
       d.intensity = intensity;
       d.color.linear[1] = 0.5f;

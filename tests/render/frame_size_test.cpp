@@ -40,7 +40,8 @@ TEST(FrameSize, IsAnEighthAtLeastAndTheWholeAtMost) {
 /// A still picture needs more samples after larger moving ones, of more samples and of more frames; of sizes
 /// only their ratio counts.
 TEST(FirstStill, WaitsUntilItIsBetterThanTheMovingPicture) {
-  const int coarse = first_still_spp({320, 180, 1}, 30, 1280), fine = first_still_spp({640, 360, 1}, 30, 1280);
+  const int coarse = first_still_spp({320, 180, 1}, 30, 1280),
+            fine = first_still_spp({640, 360, 1}, 30, 1280);
   EXPECT_GE(coarse, 3);  // as measured
   EXPECT_GE(fine, 6);
   EXPECT_EQ(first_still_spp({640, 360, 1}, 1, 1280), coarse);

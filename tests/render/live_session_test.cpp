@@ -270,7 +270,7 @@ TEST(LiveSession, ThePictureGetsNoWorseWhenItComesToRest) {
   heard.wait_for([](const LiveFrame& f) { return f.done; });
   SceneDescription other = scene;  // other samples of the same
   other.render.seed += 1;
-  other.image.spp = 512;
+  other.image.spp = 256;
   const Image8 reference = tone_map(rendered(live, other), {scene.image.exposure_ev, scene.image.tone_curve});
   std::vector<FramePtr> frames = heard.frames();
   const auto still = std::find_if(frames.begin(), frames.end(), [](const FramePtr& f) { return !f->moving; });
