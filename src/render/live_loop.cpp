@@ -238,7 +238,8 @@ int LiveSession::Loop::next_still_spp() const {
   while (end <= at) end *= 2;
   if (at > 0) return end;
   const double pass_s = sizes_.cost().per_sample_s * static_cast<double>(still_->film.pixel_count());
-  while (pass_s > 0 && end < 32 && 2 * end * pass_s < kFirstStill_s) end *= 2;
+  const int most = scene_->image.noise ? kNoiseFrom : 32;
+  while (pass_s > 0 && end < most && 2 * end * pass_s < kFirstStill_s) end *= 2;
   return end;
 }
 
