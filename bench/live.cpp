@@ -1,7 +1,7 @@
 // Measures a live session: frames per second while the camera turns with an edit every 1/60 s, and how long
 // an edit takes from its call to the frame that shows it, of the camera and of the transfer function, from a
 // picture that stands still and while edits go on. Wall time, medians and 95th percentiles. Prints JSON.
-// Usage: voxlume_live_speed VOLUME [DENOISER [SECONDS]]
+// Usage: voxlume_live_speed VOLUME [DENOISER [SECONDS [EDGE]]], the volume stretched to EDGE^3 voxels
 #include <cstdio>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -9,6 +9,7 @@
 
 #include "measure.h"
 #include "render/live_session.h"
+#include "stretched.h"
 #include "voxlume/error.h"
 
 namespace {
@@ -22,14 +23,16 @@ double seconds(Clock::duration d) { return std::chrono::duration<double>(d).coun
 double percentile(std::vector<double> values, double share) {
   if (values.empty()) return 0;
   std::sort(values.begin(), values.end());
-  return values[std::min(values.size() - 1, static_cast<std::size_t>(share * static_cast<double>(values.size())))];
+  return values[std::min(values.size() - 1,
+                         static_cast<std::size_t>(share * static_cast<double>(values.size())))];
 }
 
 /// A session that remembers when each frame came.
 class Watched {
  public:
   Watched(const SceneDescription& scene, const Volume& volume)
-      : live_(scene, volume, {[this](std::shared_ptr<const LiveFrame> frame) { hear(std::move(frame)); }, {}, {}, {}}),
+      : live_(scene, volume,
+              {[this](std::shared_ptr<const LiveFrame> frame) { hear(std::move(frame)); }, {}, {}, {}}),
         scene_(live_.session().description()) {}
 
   /// Shows the scene after `change`.
@@ -106,7 +109,8 @@ Json drag(Watched& watched, double length_s, Change&& change) {
     develop.push_back(1e3 * seen[i].frame->develop_s);
   }
   const LiveFrame& last = *seen.back().frame;
-  return {{"fps", 1e3 * static_cast<double>(frame.size()) / std::max(1.0, seconds(seen.back().at - seen[0].at) * 1e3)},
+  return {{"fps", 1e3 * static_cast<double>(frame.size()) /
+                      std::max(1.0, seconds(seen.back().at - seen[0].at) * 1e3)},
           {"frame_p95_ms", percentile(frame, 0.95)},
           {"compile_ms", percentile(compile, 0.5)},
           {"trace_ms", percentile(trace, 0.5)},
@@ -125,7 +129,9 @@ Json stills(const std::vector<Watched::Seen>& seen) {
     denoise.push_back(1e3 * s.frame->denoise_s);
     develop.push_back(1e3 * s.frame->develop_s);
   }
-  return {{"denoise_ms", percentile(denoise, 0.5)}, {"develop_ms", percentile(develop, 0.5)}, {"frames", denoise.size()}};
+  return {{"denoise_ms", percentile(denoise, 0.5)},
+          {"develop_ms", percentile(develop, 0.5)},
+          {"frames", denoise.size()}};
 }
 
 /// Single edits of a picture that stands still.
@@ -167,14 +173,15 @@ Json measure(const Volume& volume, const std::string& denoiser, int width, int h
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 2 || argc > 4) {
-    std::fprintf(stderr, "usage: voxlume_live_speed VOLUME [DENOISER [SECONDS]]\n");
+  if (argc < 2 || argc > 5) {
+    std::fprintf(stderr, "usage: voxlume_live_speed VOLUME [DENOISER [SECONDS [EDGE]]]\n");
     return 2;
   }
   try {
     VolumeDescription description;
     description.path = argv[1];
-    const Volume volume = open_volume(description);
+    Volume volume = open_volume(description);
+    if (argc > 4) volume = stretched(volume, std::max(2, std::atoi(argv[4])));
     const std::string denoiser = argc > 2 ? argv[2] : "decoupled";
     const double length_s = argc > 3 ? std::atof(argv[3]) : 5;
     Json out{{"volume_voxels", volume.size}, {"denoiser", denoiser}, {"sizes", Json::array()}};

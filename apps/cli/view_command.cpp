@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Rendering's share of a frame: a browser on the same machine takes and draws the picture in what is left.
-constexpr double kFrameBudget_s = 1.0 / 45;
+constexpr double kFrameBudget_s = 1.0 / 22;
 
 /// What the user asked `voxlume view` for.
 struct ViewRequest {

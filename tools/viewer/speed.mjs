@@ -92,17 +92,23 @@ async function measure(browser, [width, height]) {
   await drag(2);
   const orbit = await drag(seconds);
 
-  // Single steps of a picture at rest, by the keyboard.
-  await canvas.click();
-  const from = await page.evaluate(() => performance.now());
-  for (let i = 0; i < 20; ++i) {
-    await page.keyboard.press("ArrowRight");
-    await page.waitForTimeout(900);
-  }
-  const steps = await page.evaluate(summary, from);
+  // Single steps of a picture at rest, by the keyboard: of the camera and of the transfer function.
+  const steps = async (element) => {
+    await element.focus();
+    const from = await page.evaluate(() => performance.now());
+    for (let i = 0; i < 20; ++i) {
+      await page.keyboard.press("ArrowRight");
+      await page.waitForTimeout(900);
+    }
+    return (await page.evaluate(summary, from)).edit_to_pixel_ms;
+  };
+  const step = await steps(page.locator(".view"));
+  if (!(await page.getByRole("slider", { name: "Density" }).count()))
+    await page.getByRole("button", { name: "Transfer function", exact: true }).first().click();
+  const transfer_step = await steps(page.getByRole("slider", { name: "Density" }));
   await page.close();
   await viewer.end();
-  return { size: [width, height], first_picture_s: firstPicture_s, orbit, step: steps.edit_to_pixel_ms };
+  return { size: [width, height], first_picture_s: firstPicture_s, orbit, step, transfer_step };
 }
 
 const browser = await startBrowser();
