@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "grid/grid_view.h"
+#include "scene/label_values.h"
 #include "scene/rule_volumes.h"
 #include "voxlume/error.h"
 
@@ -12,7 +13,8 @@ namespace {
 
 /// Scenes have three proxies and labels at most; some more are kept for those that come back by undo.
 constexpr std::size_t kMostKept = 6;
-constexpr float kMostLabel = 65535;
+/// Labels have names and colours up to here.
+constexpr float kMostTabled = 65535;
 
 /// The proxy that `proxy`, one of the scene's, is derived from; null: the main volume.
 const ProxyDescription* source_of(const SceneDescription& scene, const ProxyDescription& proxy) {
@@ -61,9 +63,10 @@ std::shared_ptr<const SideVolume> SideVolumes::keep(const Origin& origin, const 
   side->statistics = compute_statistics(grid);
   side->labels = proxy.lookup == Lookup::kNearest;
   if (side->labels) {
-    check_whole_numbers(grid, proxy.path);
-    const float last = std::clamp(side->statistics.upper, 0.0f, kMostLabel);
-    side->table = read_label_table(proxy.path, origin.names, static_cast<std::size_t>(last) + 1);
+    side->label_values = label_values(grid, proxy.path);
+    const float last = side->label_values.empty() ? 0 : side->label_values.back();
+    side->table = read_label_table(proxy.path, origin.names,
+                                   static_cast<std::size_t>(std::clamp(last, 0.0f, kMostTabled)) + 1);
   }
   kept_.push_front({origin, side});
   if (kept_.size() > kMostKept) kept_.pop_back();

@@ -17,8 +17,9 @@ namespace voxlume::server {
 struct SideVolume {
   Volume volume;
   VolumeStatistics statistics;
-  bool labels = false;  ///< looked up by the nearest voxel
-  LabelTable table;     ///< of labels
+  bool labels = false;              ///< looked up by the nearest voxel
+  std::vector<float> label_values;  ///< those that occur, ascending; empty where it has none
+  LabelTable table;                 ///< of labels
 };
 
 /// Proxies and labels of scenes, each read or derived when it is first asked for and kept while scenes go on

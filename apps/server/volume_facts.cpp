@@ -54,8 +54,8 @@ json volume_json(const std::string& name, const Volume& volume, const VolumeStat
 
 json labels_json(const SideVolume& labels) {
   json out = json::array();
-  for (const auto& [value, count] : labels.statistics.histogram) {
-    if (count == 0 || value == 0 || out.size() >= kMostLabels) continue;
+  for (const float value : labels.label_values) {
+    if (value == 0 || out.size() >= kMostLabels) continue;
     const auto index = static_cast<std::size_t>(std::max(value, 0.0f));
     const bool known = value > 0 && index < labels.table.colors.size();
     const Vec3f color = known ? labels.table.colors[index] : Vec3f(0.5f);

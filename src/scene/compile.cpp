@@ -10,6 +10,7 @@
 #include "grid/grid_view.h"
 #include "image_io/image_io.h"
 #include "scene/check_picture.h"
+#include "scene/label_values.h"
 #include "scene/peers.h"
 #include "scene/recenter.h"
 #include "scene/resolve.h"
@@ -46,13 +47,12 @@ struct LabelSet {
 LabelSet read_labels(const LabelsDescription& labels, const Double3& origin_mm) {
   LabelSet out{read_volume(labels.path), {}};
   const GridView grid = make_grid_view(moved_to_origin(out.volume, origin_mm));
-  const VolumeStatistics statistics = compute_statistics(grid);
-  check_whole_numbers(grid, labels.path);
-  if (statistics.upper > static_cast<float>(kMaxLabel))
+  const std::vector<float> values = label_values(grid, labels.path);
+  const auto count = values.empty() ? 1 : static_cast<std::size_t>(std::max(values.back(), 0.0f)) + 1;
+  if (count > kMaxLabel + 1)
     throw Error(
         ErrorCode::kBadFormat, labels.path,
-        "expected labels up to " + std::to_string(kMaxLabel) + ", found " + std::to_string(statistics.upper));
-  const auto count = static_cast<std::size_t>(std::max(statistics.upper, 0.0f)) + 1;
+        "expected labels up to " + std::to_string(kMaxLabel) + ", found " + std::to_string(count - 1));
   out.table = read_label_table(labels.path, labels.names, count);
   return out;
 }

@@ -8,15 +8,13 @@
 
 #include "base/parallel.h"
 #include "grid/derive.h"
+#include "scene/label_values.h"
 #include "scene/open_volume.h"
 #include "scene/recenter.h"
 #include "voxlume/error.h"
 
 namespace voxlume {
 namespace {
-
-/// Beyond this, floats have no halves, which separate labels.
-constexpr float kMostLabel = (1 << 23) - 1;
 
 [[noreturn]] void refuse(const std::string& where, const std::string& message) {
   throw Error(ErrorCode::kBadParameter, where, message);
@@ -98,20 +96,6 @@ Volume proxy_volume(const ProxyDescription& proxy, const Volume& from, const std
   }
 }
 
-void check_whole_numbers(const GridView& grid, const std::string& where) {
-  std::atomic<bool> fractions{false};
-  with_voxels(grid.type, grid.voxels, [&](const auto* voxels) {
-    parallel_for(grid.size[2], 1, [&](std::int64_t k) {
-      for (std::int64_t i = k * grid.stride_k; i < (k + 1) * grid.stride_k; ++i) {
-        const auto v = static_cast<double>(voxels[i]);
-        if (std::isfinite(v) && v != std::floor(v)) fractions = true;
-      }
-    });
-  });
-  if (fractions)
-    throw Error(ErrorCode::kBadFormat, where, "expected a label volume of whole numbers, found fractions");
-}
-
 RuleVolumes::RuleVolumes(const Volume& main, const VolumeStatistics& statistics,
                          const std::vector<ProxyDescription>& proxies, const Double3& origin_mm) {
   RuleVolume data;
@@ -179,11 +163,7 @@ void RuleVolumes::add(const ProxyDescription& proxy, Volume volume, const Double
     warnings_.push_back(where + ": \"" + proxy.name +
                         "\" lies nowhere in the volume, so its rules apply nowhere");
   if (view.nearest) {
-    check_whole_numbers(view.grid, file);
-    if (std::max(-out.values.lower, out.values.upper) > kMostLabel)
-      throw Error(ErrorCode::kBadFormat, file,
-                  fmt::format("expected labels from {} to {}, found {}", -kMostLabel, kMostLabel,
-                              -out.values.lower > kMostLabel ? out.values.lower : out.values.upper));
+    label_values(view.grid, file);  // refuses what no labels are
     if (proxy.outline == Outline::kSmooth) {
       leads_.push_back(label_leads(view.grid));
       view.leads = leads_.back().data();

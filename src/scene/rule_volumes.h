@@ -10,9 +10,6 @@
 
 namespace voxlume {
 
-/// Throws Error kBadFormat at `where` unless every finite voxel is a whole number (NaN counts as background).
-void check_whole_numbers(const GridView& grid, const std::string& where);
-
 /// The voxels of a proxy: read, or derived from `from`, which the proxy's `of` names. Throws Error with the
 /// field of the proxy at `where` ("/proxies/0"), those of open_volume and of deriving.
 Volume proxy_volume(const ProxyDescription& proxy, const Volume& from, const std::string& where);

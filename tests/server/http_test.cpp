@@ -105,9 +105,9 @@ TEST_F(Http, WithoutAPageSaysHowToBuildOne) {
 
 TEST_F(Http, WhileNothingIsOpenThereIsNothingToTell) {
   const Address& at = start();
-  for (const char* path :
-       {"/api/volume", "/api/labels", "/api/slice?axis=z&mm=0", "/api/histogram?of=x", "/api/histogram2?x=data&y=x", "/api/picture.png",
-        "/api/scene.json", "/api/preset/ct-bone.png", "/api/export/a.mp4", "/api/nothing", "/api/"})
+  for (const char* path : {"/api/volume", "/api/labels", "/api/slice?axis=z&mm=0", "/api/histogram?of=x",
+                           "/api/histogram2?x=data&y=x", "/api/picture.png", "/api/scene.json",
+                           "/api/preset/ct-bone.png", "/api/export/a.mp4", "/api/nothing", "/api/"})
     EXPECT_EQ(get(at, path).status, 404) << path;
 }
 
@@ -322,6 +322,25 @@ TEST_F(HttpOfVolume, LabelsThatOccurHaveNamesAndColours) {
   EXPECT_EQ(head["offset"].get<double>() + slice.body[30] - 1, 2);
 }
 
+TEST_F(HttpOfVolume, LabelsOfWideTypesAreTheFilesOwn) {
+  // As brain atlases number them, and store them.
+  const std::vector<int> values = {2, 17, 53, 11101, 14175};
+  const auto label = [&](auto i, auto, auto) { return values[static_cast<std::size_t>(i) % values.size()]; };
+  write_volume(test::make_volume<std::int32_t>({kRampEdge, 2, 2}, label), files_ / "int.nrrd");
+  write_volume(test::make_volume<float>({kRampEdge, 2, 2}, label), files_ / "float.nrrd");
+  Page page(*address_);
+  for (const char* name : {"int.nrrd", "float.nrrd"}) {
+    page.send(edit(1, "/proxies", json::array({{{"name", "atlas"}, {"path", name}, {"lookup", "nearest"}}})));
+    page.next("edited");
+    std::vector<int> listed;
+    for (const json& entry : data("/api/labels")["atlas"]) {
+      EXPECT_EQ(entry["value"], std::floor(entry["value"].get<double>()));
+      listed.push_back(entry["value"].get<int>());
+    }
+    EXPECT_EQ(listed, values) << name;
+  }
+}
+
 TEST_F(HttpOfVolume, ProxiesHaveHistograms) {
   Page page(*address_);
   page.send(edit(1, "/proxies", json::array({{{"name", "g"}, {"kind", "gradient"}}})));
@@ -347,7 +366,8 @@ TEST_F(HttpOfVolume, TwoVolumesHaveAJointHistogram) {
   // Half of the voxels are of each label.
   for (std::size_t row = 0; row < rows; ++row) {
     std::uint64_t sum = 0;
-    for (std::size_t i = 0; i < columns; ++i) sum += histogram["counts"][row * columns + i].get<std::uint64_t>();
+    for (std::size_t i = 0; i < columns; ++i)
+      sum += histogram["counts"][row * columns + i].get<std::uint64_t>();
     EXPECT_EQ(sum, 2048u) << row;
   }
   // The least of the ramp's 128 bins has 0 to 49: two rows of 16 voxels, and the first ten of the third.
