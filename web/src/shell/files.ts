@@ -1,10 +1,9 @@
 import { loadScene, openPath } from "../state/scene";
 import { showToast } from "../ui/toast";
 import { environmentMapEndings, isEnvironmentMap, lightBy } from "./environment-map";
-import { decodeScene } from "./link";
 import { uploaded, type NamedFile } from "./upload";
 
-/** Opening what the user drops, picks or follows a link to. */
+/** Opening what the user drops or picks. */
 
 /** A scene file is read here: it need not go through the folder of uploads. */
 async function openSceneFile(file: File): Promise<void> {
@@ -69,15 +68,4 @@ export function pickUpload(take: (path: string) => void): void {
 /** Lights the volume by an environment map that the user chooses. */
 export function pickEnvironmentMap(): void {
   askForFiles(([file]) => file && void lightBy(file), { accept: environmentMapEndings, several: false });
-}
-
-/** Opens the scene of the page's own address, once: reloading later keeps what has been changed since. */
-export async function openLinkedScene(): Promise<void> {
-  try {
-    const linked = await decodeScene(location.hash);
-    if (linked) loadScene(linked);
-  } catch (error) {
-    showToast({ tone: "error", text: (error as Error).message });
-  }
-  if (location.hash) history.replaceState(null, "", location.pathname + location.search);
 }
