@@ -104,8 +104,8 @@ class Slices {
   }
 }
 
-async function openSlices(t, args) {
-  const viewer = await open(t, args);
+async function openSlices(t, args, options) {
+  const viewer = await open(t, args, options);
   await viewer.done();
   await viewer.page.keyboard.press("s");
   await viewer.page.getByRole("toolbar", { name: "Slices" }).waitFor();
@@ -348,6 +348,51 @@ test("the panes have one scale, are zoomed and moved together, and go back", asy
   await page.waitForFunction(() => document.querySelector("[aria-label='Show all of every slice']").disabled);
   assert.deepEqual(await scales(), [first, ...others]);
   assert.deepEqual((await viewer.scene()).camera, camera, "the picture was zoomed, too");
+});
+
+test("one finger moves the crosshair, two zoom about their middle and move what is seen", async (t) => {
+  const slices = await openSlices(t, [headCt, ...quick], { touch: true });
+  const { page } = slices;
+  const devtools = await page.context().newCDPSession(page);
+  const send = (type, points) => devtools.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+  /** Fingers come down one after the other and go from the first to the second of their two places. */
+  const touch = async (paths) => {
+    const at = (s) => paths.map(([from, to]) => [from[0] + s * (to[0] - from[0]), from[1] + s * (to[1] - from[1])]);
+    for (let n = 1; n <= paths.length; ++n) await send("touchStart", at(0).slice(0, n));
+    for (let i = 1; i <= 10; ++i) await send("touchMove", at(i / 10));
+    await send("touchEnd", []);
+    await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+  };
+  const [x, y] = (await slices.middle("Axial")).map(Math.round);
+  const first = await slices.scale("Axial");
+  await touch([[[x, y], [x + 24, y + 16]]]);
+  const at = await slices.until((now) => now[0] > 5, "to the left");
+  assert.equal(await slices.scale("Axial"), first, "one finger zooms");
+  const reset = page.getByRole("button", { name: "Show all of every slice" });
+  assert.ok(await reset.isDisabled());
+
+  // 120 px apart, then 240, about a place beside the crosshair; the crosshair stays at its anatomy.
+  const cross = await slices.cross("Axial");
+  const box = await slices.plane("Axial").boundingBox();
+  const middle = [x - 30 - box.x, y - 10 - box.y];
+  await touch([[[x - 90, y - 10], [x - 150, y - 10]], [[x + 30, y - 10], [x + 90, y - 10]]]);
+  assert.deepEqual(await slices.at(), at, "the first finger of two moves the crosshair");
+  assert.ok(Math.abs((await slices.scale("Coronal")) / first - 2) < 0.02, `${await slices.scale("Coronal")} px a mm, was ${first}`);
+  const zoomed = await slices.cross("Axial");
+  for (const i of [0, 1]) assert.ok(Math.abs(zoomed[i] - (middle[i] + 2 * (cross[i] - middle[i]))) < 1, `${cross} about ${middle} became ${zoomed}`);
+
+  // As far apart all the time, or nearly: only moved.
+  await touch([[[x - 60, y], [x - 20, y + 24]], [[x + 60, y], [x + 104, y + 24]]]);
+  const moved = await slices.cross("Axial");
+  assert.ok(Math.abs(moved[0] - zoomed[0] - 42) < 1 && Math.abs(moved[1] - zoomed[1] - 24) < 1, `${zoomed} went to ${moved}`);
+  assert.ok(Math.abs((await slices.scale("Axial")) / first - 2) < 0.02);
+  assert.deepEqual(await slices.at(), at);
+
+  // Together again: all is seen. Then one finger is as before.
+  await touch([[[x - 150, y], [x - 40, y]], [[x + 150, y], [x + 40, y]]]);
+  await page.waitForFunction(() => document.querySelector("[aria-label='Show all of every slice']").disabled);
+  await touch([[[x, y], [x - 30, y]]]);
+  await slices.until((now) => now[0] < at[0] - 5, "to the right");
 });
 
 test("distances are measured in the slices, by pointer and by keys, and are shown where they lie", async (t) => {
