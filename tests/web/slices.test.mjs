@@ -449,8 +449,17 @@ test("distances are measured in the slices, by pointer and by keys, and are show
   const told = parseFloat((await voice.innerText()).match(/[\d.]+/)[0]);
   assert.ok(Math.abs(told - 60 / scale) < 0.06, `${told} mm of 60 px at ${scale} px a mm`);
   await untilLines([1, 2, 1, 2]);
+  // Its second end, in the plane, by keys: it stays in the plane that has the handle.
+  const end = slices.plane("Sagittal").getByRole("button", { name: /^Second end of the distance of/ });
+  await end.focus();
+  for (let i = 0; i < 2; ++i) await page.keyboard.press("Shift+ArrowUp");
+  for (let i = 0; i < 5; ++i) await page.keyboard.press("ArrowUp");
+  await voice.filter({ hasText: new RegExp(`^${(35 / scale).toFixed(1)} mm$`) }).waitFor();
+  assert.ok(Math.abs((await lengthIn("Sagittal")) - 35 / scale) < 0.06);
+  assert.deepEqual(await slices.at(), at, "the keys of the end have gone through the slices");
   await page.keyboard.press("Delete");
   await untilLines([1, 1, 0, 1]);
+  assert.match(await page.evaluate(() => document.activeElement.getAttribute("aria-label")), /^Sagittal slice/, "the focus is lost");
   await page.keyboard.press("Escape");
   await page.getByText("Click two points").waitFor({ state: "detached" });
   assert.deepEqual(await slices.at(), at, "the keys have gone through the slices");
