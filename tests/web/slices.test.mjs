@@ -44,7 +44,7 @@ class Slices {
   }
 
   async window() {
-    return [await this.number("Level"), await this.number("Width")];
+    return [await this.number("Level"), await this.number("Window")];
   }
 
   /** Mean grey of a plane's canvas once it is drawn. */
@@ -476,6 +476,9 @@ test("the window is dragged, typed and taken from presets", { skip: missing("hea
   const slices = await openSlices(t, [headCt, ...quick]);
   const { page, viewer } = slices;
   assert.deepEqual(await slices.window(), [40, 400]);
+  // In words: a letter before a number is a side of the patient.
+  const words = await page.getByRole("toolbar", { name: "Slices" }).locator("label").allInnerTexts();
+  assert.deepEqual(words.map((word) => word.trim()), ["Window", "Level"]);
   const soft = await slices.grey("Axial");
   await viewer.button("Bone").click();
   assert.deepEqual(await slices.window(), [500, 2000]);
@@ -498,7 +501,7 @@ test("the window is dragged, typed and taken from presets", { skip: missing("hea
   const level_ = page.getByRole("textbox", { name: "Level", exact: true });
   await level_.fill("40");
   await level_.press("Enter");
-  const width_ = page.getByRole("textbox", { name: "Width", exact: true });
+  const width_ = page.getByRole("textbox", { name: "Window", exact: true });
   await width_.fill("400");
   await width_.press("Enter");
   assert.equal(await viewer.button("Soft tissue").getAttribute("aria-pressed"), "true");

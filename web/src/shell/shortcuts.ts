@@ -198,7 +198,7 @@ export const pointerHelp: readonly { keys: string; what: string }[] = [
   { keys: "Wheel, arrows, Page Up and Down on a slice", what: "Through the slices" },
   { keys: "Ctrl + wheel, pinch, + and - on a slice", what: "Zoom of all slices; F takes it back" },
   { keys: "Middle, Shift + or two-finger drag on a slice", what: "Move all slices" },
-  { keys: "Right drag on a slice", what: "Level and window" },
+  { keys: "Right drag on a slice", what: "Window and level" },
   { keys: "Wheel or Shift + drag on a light", what: "Its distance" },
 ];
 
