@@ -287,6 +287,47 @@ test("labels have the colors of the scene, and hidden ones none", async (t) => {
   for (let tries = 0; !isGrey(await slices.color("Axial", ...at(0.1))); ++tries) assert.ok(tries < 100, "the label is still painted");
 });
 
+test("labels that rules of two values color by the data are so in the slices", async (t) => {
+  // The data grows by 10 a mm along x, the labels are 12 mm wide.
+  const scene = (folder) => {
+    const points = [{ value: 0, opacity: 0.999, color: "#ffffff" }, { value: 5000, opacity: 0.999, color: "#ffffff" }];
+    const rules = [
+      { kind: "cdptf", volume: "quarters", along: "data", column_form: "steps", columns: [{ at: 1400, points: [{ value: 4, mu_t_per_mm: 1e-9 }] }] },
+      { kind: "cpctf", volume: "data", along: "quarters", column_form: "points", columns: [{ at: 2, points: [{ value: 1000, color: "#2040ff" }, { value: 1180, color: "#ffc020" }] }] },
+      { kind: "cdptf", volume: "quarters", along: "edges", columns: [{ at: 0, points: [{ value: 3, color: "#ff8000" }] }] },
+    ];
+    const file = join(folder, "planes-scene.json");
+    writeFileSync(file, JSON.stringify({
+      version: 1,
+      volume: { path: writeRamp(join(folder, "ramp.nrrd")) },
+      proxies: [{ name: "quarters", path: writeQuarters(join(folder, "quarters.nrrd")), lookup: "nearest" }, { name: "edges", kind: "gradient" }],
+      transfer: { points, rules },
+    }));
+    return [file, ...quick];
+  };
+  const slices = await openSlices(t, scene);
+  const { page, viewer } = slices;
+  const own = await page.evaluate(async () => (await fetch("/api/labels")).json());
+  await page.getByRole("slider", { name: "Opacity of the labels" }).press("End");
+  const pane = await slices.plane("Axial").boundingBox();
+  const side = Math.min(pane.width, pane.height);
+  const at = (x_mm) => [0.5 + (((x_mm + 0.5) / 48 - 0.5) * side) / pane.width, 0.42];
+  const fileColor = (value) => own.quarters.find((label) => label.value === value).color;
+  await slices.untilColor("Axial", at(14), "#2040ff");
+  await slices.untilColor("Axial", at(21), "#ffc020");
+  await slices.untilColor("Axial", at(30), "#ff8000");
+  await slices.untilColor("Axial", at(5), fileColor(1));
+  await slices.untilColor("Axial", at(37), fileColor(4));
+  const bare = await slices.color("Axial", ...at(44));
+  assert.equal(bare.slice(1, 3), bare.slice(5), `what the rule hides is painted ${bare}`);
+  assert.notEqual(bare, fileColor(4));
+  // And as soon as the rules say otherwise.
+  const now = await viewer.scene();
+  await viewer.load({ ...now, transfer: { ...now.transfer, rules: [] } });
+  await slices.untilColor("Axial", at(14), fileColor(2));
+  await slices.untilColor("Axial", at(44), fileColor(4));
+});
+
 test("the panes have one scale, are zoomed and moved together, and go back", async (t) => {
   const slices = await openSlices(t, [headCt, ...quick]);
   const { page, viewer } = slices;

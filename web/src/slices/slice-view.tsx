@@ -2,6 +2,7 @@ import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import { formatCoordinate } from "../geometry/orientation";
 import { planes, type Plane, type Size } from "../model/slice";
 import { crosshair } from "../state/crosshair";
+import { labelPaintings } from "../state/label-colors";
 import { volume } from "../state/volume";
 import { measuring } from "../view/distances";
 import { pointAt } from "../view/probing";
@@ -43,7 +44,7 @@ export function SliceView({ plane, overlay }: { plane: Plane; overlay: string })
   const facts = volume.value;
   const mm = crosshair.value?.[layout.normal] ?? 0;
   const fingers = useMemo(fingersOnPane, []);
-  const { shown, failure } = useSlice(layout.axis, mm, overlay);
+  const { shown, failure } = useSlice(layout.axis, mm, overlay, labelPaintings.value[overlay]?.beside ?? []);
   if (!facts) return <div ref={root} class="slice" style={{ gridArea: plane }} />;
   const lo = facts.bounds_mm[0][layout.normal];
   const hi = facts.bounds_mm[1][layout.normal];
