@@ -1,6 +1,6 @@
 // What outlives a page, or a viewer: links, pictures with all their light, and connections that end.
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
+import { execFileSync, spawn } from "node:child_process";
 import { createServer } from "node:http";
 import { join } from "node:path";
 import { deflateSync } from "node:zlib";
@@ -151,6 +151,26 @@ test("links on another site's page lead into the viewer", async (t) => {
   await viewer.sceneWith((s) => s.camera.azimuth_deg === 33, "the linked view");
   await follow("a file");
   await page.getByText("another site's page").waitFor();
+});
+
+test("no viewer outlives the script that started it", async () => {
+  const tools = new URL("../../tools/viewer/chromium_page.mjs", import.meta.url).pathname;
+  const start = `import { startViewer } from ${JSON.stringify(tools)}; const { url } = await startViewer([]); console.log(url);`;
+  for (const [what, script, signal] of [
+    ["an error", `${start} throw new Error("as measurements may fail")`, null],
+    ["a signal", `${start} await new Promise((resolve) => setTimeout(resolve, 60000))`, "SIGTERM"],
+  ]) {
+    const child = spawn(process.execPath, ["--input-type=module", "-e", script], { stdio: ["ignore", "pipe", "ignore"] });
+    const exited = new Promise((resolve) => child.once("exit", resolve));
+    const url = await new Promise((resolve) => child.stdout.once("data", (data) => resolve(data.toString().trim())));
+    if (signal) child.kill(signal);
+    assert.notEqual(await exited, 0);
+    const answers = () => fetch(url, { redirect: "manual" }).then(() => true, () => false);
+    for (let tries = 0; await answers(); ++tries) {
+      assert.ok(tries < 100, `the viewer still answers after ${what}`);
+      await new Promise((resolve) => setTimeout(resolve, 50));
+    }
+  }
 });
 
 test("an EXR has the picture in linear light", async (t) => {
