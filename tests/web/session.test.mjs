@@ -5,6 +5,7 @@ import { createServer } from "node:http";
 import { join } from "node:path";
 import { deflateSync } from "node:zlib";
 import { after, test } from "node:test";
+import { violations } from "./checks.mjs";
 import { closeBrowser, headCt, open, program, psnr, quick, readFileSync, startViewer, writeBall, writeRamp } from "./page.mjs";
 
 after(closeBrowser);
@@ -83,6 +84,7 @@ test("what a link has replaced is told and comes back in one step; a link to wha
   await follow(link);
   await notice.waitFor();
   assert.match(await notice.innerText(), /for all 2 pages/);
+  assert.deepEqual(await violations(page), []);
   assert.equal(await onlooker.locator(".toast").count(), 0, "those who did not follow it are told");
   await onlooker.close();
   assert.equal((await viewer.scene()).camera.azimuth_deg, 12);

@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, test } from "node:test";
+import { violations } from "./checks.mjs";
 import { closeBrowser, headCt, open, psnr, quick, writeBall } from "./page.mjs";
 
 after(closeBrowser);
@@ -107,7 +108,8 @@ test("the ends of a distance are moved by keys, and it is deleted from them", as
       await page.waitForTimeout(30);
     }
   };
-  // Reached by the Tab key like everything, and named.
+  assert.deepEqual(await violations(page), []);
+  // Reached by the Tab key like everything.
   await page.getByRole("application", { name: /^View of the volume/ }).focus();
   for (let stops = 0; !(await second.evaluate((end) => end === document.activeElement)); ++stops) {
     assert.ok(stops < 12, "the Tab key does not come to the end");
