@@ -1,8 +1,82 @@
-// What holds of every state of the page, whatever is open; each gives a line for what does not.
+// What holds of every state of the page, whatever is open; each check gives a line for what does not.
+import { readFileSync } from "node:fs";
+import { headCt, open, quick, sample, samples } from "./page.mjs";
+
+/** axe-core, to be evaluated in a page: it then has window.axe. */
+const axeSource = readFileSync(new URL("../../web/node_modules/axe-core/axe.min.js", import.meta.url), "utf8");
+
+/** The page with something to show in every panel, where the sample data is there: labels, and an animation. */
+export async function openFull(t, options = {}) {
+  const atlas = sample("aal.nii.gz");
+  const volume = sample("mri-brain.nii.gz") ?? headCt;
+  const args = [volume, ...(atlas ? ["--labels", atlas] : []), ...quick, "--turntable"];
+  const viewer = await open(t, args, { ...options, folder: atlas ? samples : undefined });
+  await viewer.done();
+  return viewer;
+}
+
+export const panelTitles = (page) =>
+  page.getByLabel("Panels", { exact: true }).getByRole("button").evaluateAll((buttons) => buttons.map((button) => button.getAttribute("aria-label")));
+
+/** Shows all that is in the open panel. */
+async function unfold(page) {
+  const edit = page.getByRole("button", { name: "Edit single labels" });
+  if (await edit.count()) await edit.click();
+  const folded = page.locator(".dock :not(.label-row) > [aria-expanded=false]");
+  while (await folded.count()) await folded.first().click();
+  // Of labels one is open at a time.
+  const label = page.locator(".label-row .name[aria-expanded=false]");
+  if (await label.count()) await label.first().click();
+}
+
+/** Calls `check` with the name of each state that the page comes to: every panel whole, menus, tools, slices, dialogs. */
+async function eachState(viewer, check) {
+  const { page } = viewer;
+  await check("no panel");
+  for (const title of await panelTitles(page)) {
+    await viewer.panel(title);
+    await page.getByRole("complementary", { name: title }).waitFor();
+    await unfold(page);
+    await check(title);
+  }
+  for (const menu of ["Save the picture", "Scene file", "Resolution and theme"]) {
+    await viewer.button(menu).click();
+    await check(menu);
+    await page.keyboard.press("Escape");
+  }
+  for (const [key, tool] of [["m", "Click two points"], ["c", "Drag a face"]]) {
+    await page.keyboard.press(key);
+    await page.getByText(tool).waitFor();
+    await check(tool);
+    await page.keyboard.press(key);
+  }
+  await page.keyboard.press("s");
+  await page.getByRole("toolbar", { name: "Slices" }).waitFor();
+  await check("slices");
+  await viewer.panel("Transfer function");
+  await check("slices and a panel");
+  await page.keyboard.press("Control+o");
+  await page.getByRole("dialog", { name: "Open" }).waitFor();
+  await check("the dialog that opens files");
+  await page.keyboard.press("Escape");
+  await page.keyboard.press("?");
+  await page.getByRole("dialog", { name: "Keys and gestures" }).waitFor();
+  await check("help");
+}
+
+/** What any of `checks`, functions of the page, finds in any state of it: "state: what". */
+export async function troubles(viewer, checks) {
+  const found = new Set();
+  await eachState(viewer, async (where) => {
+    for (const check of checks) for (const what of await check(viewer.page)) found.add(`${where}: ${what}`);
+  });
+  return [...found];
+}
 
 /** What axe-core finds against WCAG 2.1 A and AA, one line for each element. The unit beside a number that cannot be
  * changed is left out: what is disabled may be faint, and axe-core does not know that it belongs to it. */
 export async function violations(page) {
+  if (!(await page.evaluate(() => "axe" in window))) await page.evaluate(axeSource);
   return page.evaluate(async () => {
     const { violations: found } = await window.axe.run({ exclude: [".disabled .unit"] }, { runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa"], resultTypes: ["violations"] });
     return found.flatMap(({ id, nodes }) => nodes.map(({ html, any }) => `${id}: ${html.slice(0, 160)} ${any[0]?.message ?? ""}`));

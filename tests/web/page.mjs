@@ -19,9 +19,6 @@ export const samples = `${top}data`;
 /** What most tests need of a picture, and no more. */
 export const quick = ["--spp", "4", "--denoise", "none"];
 
-/** axe-core, to be evaluated in a page: it then has window.axe. */
-export const axeSource = readFileSync(`${top}web/node_modules/axe-core/axe.min.js`, "utf8");
-
 let browser;
 
 /** In the page: what it and its server have said to each other, for Page.settled(). */

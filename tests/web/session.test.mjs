@@ -1,11 +1,12 @@
 // What outlives a page, or a viewer: links, pictures with all their light, and connections that end.
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
+import { execFileSync, spawn } from "node:child_process";
 import { createServer } from "node:http";
 import { join } from "node:path";
 import { deflateSync } from "node:zlib";
 import { after, test } from "node:test";
-import { closeBrowser, headCt, open, program, psnr, quick, readFileSync, startViewer } from "./page.mjs";
+import { violations } from "./checks.mjs";
+import { closeBrowser, headCt, open, program, psnr, quick, readFileSync, startViewer, writeBall, writeRamp } from "./page.mjs";
 
 after(closeBrowser);
 
@@ -41,11 +42,94 @@ test("a copied link opens the same scene", async (t) => {
   assert.deepEqual(await viewer.scene(), linked);
 });
 
+/** What is behind the viewer's address in a link to a scene. */
+const hashOf = (scene) => `#scene=${deflateSync(JSON.stringify(scene)).toString("base64url")}`;
+
+test("what a link has replaced is told and comes back in one step; a link to what is shown does nothing", async (t) => {
+  const viewer = await open(t, (scratch) => [writeBall(join(scratch, "ball.nrrd")), ...quick]);
+  const { page } = viewer;
+  await viewer.done();
+  await page.keyboard.press("3");
+  const before = await viewer.sceneWith((s) => Math.abs(s.camera.azimuth_deg - 90) < 1e-6, "the view from the left");
+  await viewer.done();
+  const notice = page.locator(".toast", { hasText: "The scene of the link has replaced" });
+  const address = new URL("/", viewer.viewer.url).href;
+  const follow = (scene) => page.goto(address + hashOf(scene));
+  const revision = () => page.evaluate(() => window.seenBySocket.revision);
+
+  const told = await revision();
+  const { camera, ...rest } = await page.evaluate(async () => (await fetch("/api/scene.json")).json());
+  await follow({ camera, ...rest, image: { ...rest.image, width: 99, height: 77 } });
+  await page.waitForFunction(() => location.hash === "");
+  // Whatever it had changed would be there before what is asked for now.
+  await page.keyboard.press("m");
+  await page.getByText("Click two points").waitFor();
+  await page.keyboard.press("m");
+  await viewer.done();
+  assert.equal(await revision(), told);
+  // Also where it says what need not be said.
+  await follow(before);
+  await page.waitForFunction((number) => window.seenBySocket.revision > number, told);
+  await viewer.done();
+  assert.equal(await notice.count(), 0);
+  assert.deepEqual(await viewer.scene(), before);
+
+  // Of several fields, and others look on.
+  const onlooker = await page.context().newPage();
+  await onlooker.goto(address);
+  await onlooker.waitForFunction(() => document.title.includes("-"));
+  await onlooker.getByRole("img", { name: "The rendered volume" }).waitFor();
+  await page.bringToFront();
+  const link = { ...before, camera: { azimuth_deg: 12, zoom: 2 }, environment: { ...before.environment, intensity: 2 } };
+  await follow(link);
+  await notice.waitFor();
+  assert.match(await notice.innerText(), /for all 2 pages/);
+  assert.deepEqual(await violations(page), []);
+  assert.equal(await onlooker.locator(".toast").count(), 0, "those who did not follow it are told");
+  await onlooker.close();
+  assert.equal((await viewer.scene()).camera.azimuth_deg, 12);
+  await notice.getByRole("button", { name: "Undo" }).click();
+  await viewer.sceneWith((s) => s.camera.azimuth_deg === before.camera.azimuth_deg, "the view before the link");
+  const withoutSize = ({ image, ...others }) => ({ ...others, image: { ...image, width: 0, height: 0 } });
+  assert.deepEqual(withoutSize(await viewer.scene()), withoutSize(before));
+  await notice.waitFor({ state: "detached" });
+  await viewer.button("Redo").click();
+  await viewer.sceneWith((s) => s.camera.azimuth_deg === 12, "the link again");
+  await page.keyboard.press("Control+z");
+  await viewer.sceneWith((s) => s.camera.azimuth_deg === before.camera.azimuth_deg, "one step back");
+
+  // What is changed after the link is not taken for it.
+  await follow(link);
+  await notice.waitFor();
+  await page.keyboard.press("4");
+  await viewer.sceneWith((s) => Math.abs(s.camera.azimuth_deg + 90) < 1e-6, "the view from the right");
+  await notice.getByRole("button", { name: "Undo" }).click();
+  await viewer.sceneWith((s) => s.camera.azimuth_deg === before.camera.azimuth_deg, "the view before the link");
+  assert.deepEqual(withoutSize(await viewer.scene()), withoutSize(before));
+
+  // Another volume.
+  await follow({ version: 1, volume: { path: writeRamp(join(viewer.scratch, "ramp.nrrd")) }, image: { spp: 4 } });
+  await notice.waitFor();
+  assert.match(await page.title(), /^ramp\.nrrd/);
+  await notice.getByRole("button", { name: "Undo" }).click();
+  await page.waitForFunction(() => document.title.startsWith("ball.nrrd"));
+  await viewer.done();
+  assert.deepEqual(withoutSize(await viewer.scene()), withoutSize(before));
+
+  // No scene behind it.
+  for (const [scene, line] of [[{ ...before, camera: { zoom: -1 } }, "/camera/zoom"], [[1, 2], "expected an object"]]) {
+    await follow(scene);
+    await page.getByText(line).first().waitFor();
+    assert.deepEqual(withoutSize(await viewer.scene()), withoutSize(before));
+    assert.equal(await notice.count(), 0);
+  }
+});
+
 test("links on another site's page lead into the viewer", async (t) => {
   const viewer = await open(t, [headCt, ...quick]);
   await viewer.done();
   const scene = { ...(await viewer.scene()), camera: { azimuth_deg: 33 } };
-  const hash = `#scene=${deflateSync(JSON.stringify(scene)).toString("base64url")}`;
+  const hash = hashOf(scene);
   const link = (url, text) => `<p><a href="${url}">${text}</a></p>`;
   const { url } = viewer.viewer;
   // Of another host than the viewer, and so of another site.
@@ -69,6 +153,26 @@ test("links on another site's page lead into the viewer", async (t) => {
   await viewer.sceneWith((s) => s.camera.azimuth_deg === 33, "the linked view");
   await follow("a file");
   await page.getByText("another site's page").waitFor();
+});
+
+test("no viewer outlives the script that started it", async () => {
+  const tools = new URL("../../tools/viewer/chromium_page.mjs", import.meta.url).pathname;
+  const start = `import { startViewer } from ${JSON.stringify(tools)}; const { url } = await startViewer([]); console.log(url);`;
+  for (const [what, script, signal] of [
+    ["an error", `${start} throw new Error("as measurements may fail")`, null],
+    ["a signal", `${start} await new Promise((resolve) => setTimeout(resolve, 60000))`, "SIGTERM"],
+  ]) {
+    const child = spawn(process.execPath, ["--input-type=module", "-e", script], { stdio: ["ignore", "pipe", "ignore"] });
+    const exited = new Promise((resolve) => child.once("exit", resolve));
+    const url = await new Promise((resolve) => child.stdout.once("data", (data) => resolve(data.toString().trim())));
+    if (signal) child.kill(signal);
+    assert.notEqual(await exited, 0);
+    const answers = () => fetch(url, { redirect: "manual" }).then(() => true, () => false);
+    for (let tries = 0; await answers(); ++tries) {
+      assert.ok(tries < 100, `the viewer still answers after ${what}`);
+      await new Promise((resolve) => setTimeout(resolve, 50));
+    }
+  }
 });
 
 test("an EXR has the picture in linear light", async (t) => {

@@ -44,7 +44,7 @@ class Slices {
   }
 
   async window() {
-    return [await this.number("Level"), await this.number("Width")];
+    return [await this.number("Level"), await this.number("Window")];
   }
 
   /** Mean grey of a plane's canvas once it is drawn. */
@@ -104,8 +104,8 @@ class Slices {
   }
 }
 
-async function openSlices(t, args) {
-  const viewer = await open(t, args);
+async function openSlices(t, args, options) {
+  const viewer = await open(t, args, options);
   await viewer.done();
   await viewer.page.keyboard.press("s");
   await viewer.page.getByRole("toolbar", { name: "Slices" }).waitFor();
@@ -287,6 +287,47 @@ test("labels have the colors of the scene, and hidden ones none", async (t) => {
   for (let tries = 0; !isGrey(await slices.color("Axial", ...at(0.1))); ++tries) assert.ok(tries < 100, "the label is still painted");
 });
 
+test("labels that rules of two values color by the data are so in the slices", async (t) => {
+  // The data grows by 10 a mm along x, the labels are 12 mm wide.
+  const scene = (folder) => {
+    const points = [{ value: 0, opacity: 0.999, color: "#ffffff" }, { value: 5000, opacity: 0.999, color: "#ffffff" }];
+    const rules = [
+      { kind: "cdptf", volume: "quarters", along: "data", column_form: "steps", columns: [{ at: 1400, points: [{ value: 4, mu_t_per_mm: 1e-9 }] }] },
+      { kind: "cpctf", volume: "data", along: "quarters", column_form: "points", columns: [{ at: 2, points: [{ value: 1000, color: "#2040ff" }, { value: 1180, color: "#ffc020" }] }] },
+      { kind: "cdptf", volume: "quarters", along: "edges", columns: [{ at: 0, points: [{ value: 3, color: "#ff8000" }] }] },
+    ];
+    const file = join(folder, "planes-scene.json");
+    writeFileSync(file, JSON.stringify({
+      version: 1,
+      volume: { path: writeRamp(join(folder, "ramp.nrrd")) },
+      proxies: [{ name: "quarters", path: writeQuarters(join(folder, "quarters.nrrd")), lookup: "nearest" }, { name: "edges", kind: "gradient" }],
+      transfer: { points, rules },
+    }));
+    return [file, ...quick];
+  };
+  const slices = await openSlices(t, scene);
+  const { page, viewer } = slices;
+  const own = await page.evaluate(async () => (await fetch("/api/labels")).json());
+  await page.getByRole("slider", { name: "Opacity of the labels" }).press("End");
+  const pane = await slices.plane("Axial").boundingBox();
+  const side = Math.min(pane.width, pane.height);
+  const at = (x_mm) => [0.5 + (((x_mm + 0.5) / 48 - 0.5) * side) / pane.width, 0.42];
+  const fileColor = (value) => own.quarters.find((label) => label.value === value).color;
+  await slices.untilColor("Axial", at(14), "#2040ff");
+  await slices.untilColor("Axial", at(21), "#ffc020");
+  await slices.untilColor("Axial", at(30), "#ff8000");
+  await slices.untilColor("Axial", at(5), fileColor(1));
+  await slices.untilColor("Axial", at(37), fileColor(4));
+  const bare = await slices.color("Axial", ...at(44));
+  assert.equal(bare.slice(1, 3), bare.slice(5), `what the rule hides is painted ${bare}`);
+  assert.notEqual(bare, fileColor(4));
+  // And as soon as the rules say otherwise.
+  const now = await viewer.scene();
+  await viewer.load({ ...now, transfer: { ...now.transfer, rules: [] } });
+  await slices.untilColor("Axial", at(14), fileColor(2));
+  await slices.untilColor("Axial", at(44), fileColor(4));
+});
+
 test("the panes have one scale, are zoomed and moved together, and go back", async (t) => {
   const slices = await openSlices(t, [headCt, ...quick]);
   const { page, viewer } = slices;
@@ -350,6 +391,51 @@ test("the panes have one scale, are zoomed and moved together, and go back", asy
   assert.deepEqual((await viewer.scene()).camera, camera, "the picture was zoomed, too");
 });
 
+test("one finger moves the crosshair, two zoom about their middle and move what is seen", async (t) => {
+  const slices = await openSlices(t, [headCt, ...quick], { touch: true });
+  const { page } = slices;
+  const devtools = await page.context().newCDPSession(page);
+  const send = (type, points) => devtools.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+  /** Fingers come down one after the other and go from the first to the second of their two places. */
+  const touch = async (paths) => {
+    const at = (s) => paths.map(([from, to]) => [from[0] + s * (to[0] - from[0]), from[1] + s * (to[1] - from[1])]);
+    for (let n = 1; n <= paths.length; ++n) await send("touchStart", at(0).slice(0, n));
+    for (let i = 1; i <= 10; ++i) await send("touchMove", at(i / 10));
+    await send("touchEnd", []);
+    await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+  };
+  const [x, y] = (await slices.middle("Axial")).map(Math.round);
+  const first = await slices.scale("Axial");
+  await touch([[[x, y], [x + 24, y + 16]]]);
+  const at = await slices.until((now) => now[0] > 5, "to the left");
+  assert.equal(await slices.scale("Axial"), first, "one finger zooms");
+  const reset = page.getByRole("button", { name: "Show all of every slice" });
+  assert.ok(await reset.isDisabled());
+
+  // 120 px apart, then 240, about a place beside the crosshair; the crosshair stays at its anatomy.
+  const cross = await slices.cross("Axial");
+  const box = await slices.plane("Axial").boundingBox();
+  const middle = [x - 30 - box.x, y - 10 - box.y];
+  await touch([[[x - 90, y - 10], [x - 150, y - 10]], [[x + 30, y - 10], [x + 90, y - 10]]]);
+  assert.deepEqual(await slices.at(), at, "the first finger of two moves the crosshair");
+  assert.ok(Math.abs((await slices.scale("Coronal")) / first - 2) < 0.02, `${await slices.scale("Coronal")} px a mm, was ${first}`);
+  const zoomed = await slices.cross("Axial");
+  for (const i of [0, 1]) assert.ok(Math.abs(zoomed[i] - (middle[i] + 2 * (cross[i] - middle[i]))) < 1, `${cross} about ${middle} became ${zoomed}`);
+
+  // As far apart all the time, or nearly: only moved.
+  await touch([[[x - 60, y], [x - 20, y + 24]], [[x + 60, y], [x + 104, y + 24]]]);
+  const moved = await slices.cross("Axial");
+  assert.ok(Math.abs(moved[0] - zoomed[0] - 42) < 1 && Math.abs(moved[1] - zoomed[1] - 24) < 1, `${zoomed} went to ${moved}`);
+  assert.ok(Math.abs((await slices.scale("Axial")) / first - 2) < 0.02);
+  assert.deepEqual(await slices.at(), at);
+
+  // Together again: all is seen. Then one finger is as before.
+  await touch([[[x - 150, y], [x - 40, y]], [[x + 150, y], [x + 40, y]]]);
+  await page.waitForFunction(() => document.querySelector("[aria-label='Show all of every slice']").disabled);
+  await touch([[[x, y], [x - 30, y]]]);
+  await slices.until((now) => now[0] < at[0] - 5, "to the right");
+});
+
 test("distances are measured in the slices, by pointer and by keys, and are shown where they lie", async (t) => {
   const slices = await openSlices(t, (folder) => {
     const file = join(folder, "ramp.json");
@@ -404,8 +490,17 @@ test("distances are measured in the slices, by pointer and by keys, and are show
   const told = parseFloat((await voice.innerText()).match(/[\d.]+/)[0]);
   assert.ok(Math.abs(told - 60 / scale) < 0.06, `${told} mm of 60 px at ${scale} px a mm`);
   await untilLines([1, 2, 1, 2]);
+  // Its second end, in the plane, by keys: it stays in the plane that has the handle.
+  const end = slices.plane("Sagittal").getByRole("button", { name: /^Second end of the distance of/ });
+  await end.focus();
+  for (let i = 0; i < 2; ++i) await page.keyboard.press("Shift+ArrowUp");
+  for (let i = 0; i < 5; ++i) await page.keyboard.press("ArrowUp");
+  await voice.filter({ hasText: new RegExp(`^${(35 / scale).toFixed(1)} mm$`) }).waitFor();
+  assert.ok(Math.abs((await lengthIn("Sagittal")) - 35 / scale) < 0.06);
+  assert.deepEqual(await slices.at(), at, "the keys of the end have gone through the slices");
   await page.keyboard.press("Delete");
   await untilLines([1, 1, 0, 1]);
+  assert.match(await page.evaluate(() => document.activeElement.getAttribute("aria-label")), /^Sagittal slice/, "the focus is lost");
   await page.keyboard.press("Escape");
   await page.getByText("Click two points").waitFor({ state: "detached" });
   assert.deepEqual(await slices.at(), at, "the keys have gone through the slices");
@@ -422,6 +517,9 @@ test("the window is dragged, typed and taken from presets", { skip: missing("hea
   const slices = await openSlices(t, [headCt, ...quick]);
   const { page, viewer } = slices;
   assert.deepEqual(await slices.window(), [40, 400]);
+  // In words: a letter before a number is a side of the patient.
+  const words = await page.getByRole("toolbar", { name: "Slices" }).locator("label").allInnerTexts();
+  assert.deepEqual(words.map((word) => word.trim()), ["Window", "Level"]);
   const soft = await slices.grey("Axial");
   await viewer.button("Bone").click();
   assert.deepEqual(await slices.window(), [500, 2000]);
@@ -444,7 +542,7 @@ test("the window is dragged, typed and taken from presets", { skip: missing("hea
   const level_ = page.getByRole("textbox", { name: "Level", exact: true });
   await level_.fill("40");
   await level_.press("Enter");
-  const width_ = page.getByRole("textbox", { name: "Width", exact: true });
+  const width_ = page.getByRole("textbox", { name: "Window", exact: true });
   await width_.fill("400");
   await width_.press("Enter");
   assert.equal(await viewer.button("Soft tissue").getAttribute("aria-pressed"), "true");

@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, test } from "node:test";
+import { violations } from "./checks.mjs";
 import { closeBrowser, headCt, open, psnr, quick, writeBall } from "./page.mjs";
 
 after(closeBrowser);
@@ -83,6 +84,62 @@ test("measures a distance that is known, and its end can be moved", async (t) =>
   await viewer.button("Done").click();
   await viewer.page.getByText("Click two points").waitFor({ state: "detached" });
   assert.deepEqual((await viewer.scene()).camera, scene.camera, "measuring has moved the camera");
+});
+
+test("the ends of a distance are moved by keys, and it is deleted from them", async (t) => {
+  const viewer = await openBall(t);
+  const { page } = viewer;
+  const { camera } = await viewer.scene();
+  const voice = page.getByRole("status", { name: "Measuring" });
+  await page.keyboard.press("m");
+  await page.mouse.click(...(await placeOf(viewer, center_mm - 10, center_mm)));
+  await voice.filter({ hasText: /^First end at/ }).waitFor();
+  await page.mouse.click(...(await placeOf(viewer, center_mm + 10, center_mm)));
+  const [first, second] = ["First", "Second"].map((name) => page.getByRole("button", { name: new RegExp(`^${name} end of the distance of [\\d.]+ mm$`) }));
+  await second.waitFor();
+  await page.keyboard.press("Escape");
+  const length = async () => parseFloat(await page.locator(".measurement .tag-text").textContent());
+  const place = (end) => end.evaluate((handle) => handle.getAttribute("transform").match(/[-\d.]+/g).map(Number));
+  const until = async (end, wanted) => {
+    for (let tries = 0; ; ++tries) {
+      const at = await place(end);
+      if (Math.hypot(at[0] - wanted[0], at[1] - wanted[1]) < 0.2) return;
+      assert.ok(tries < 100, `the end is at ${at}, not ${wanted}`);
+      await page.waitForTimeout(30);
+    }
+  };
+  assert.deepEqual(await violations(page), []);
+  // Reached by the Tab key like everything.
+  await page.getByRole("application", { name: /^View of the volume/ }).focus();
+  for (let stops = 0; !(await second.evaluate((end) => end === document.activeElement)); ++stops) {
+    assert.ok(stops < 12, "the Tab key does not come to the end");
+    await page.keyboard.press("Tab");
+  }
+  const ring = await second.locator(".reach").evaluate((reach) => getComputedStyle(reach).stroke);
+  assert.notEqual(ring, "none", "no ring of focus");
+  const [[x, y], before] = [await place(second), await length()];
+  const still = await place(first);
+  for (let i = 0; i < 12; ++i) await page.keyboard.press("ArrowLeft");
+  await page.keyboard.press("Shift+ArrowDown");
+  await until(second, [x - 12, y + 10]);
+  for (let i = 0; i < 12; ++i) await page.keyboard.press("ArrowRight");
+  await page.keyboard.press("Shift+ArrowUp");
+  await until(second, [x, y]);
+  assert.ok(Math.abs((await length()) - before) < 0.15, `${await length()} mm, was ${before}`);
+  for (let i = 0; i < 3; ++i) await page.keyboard.press("Shift+ArrowLeft");
+  await until(second, [x - 30, y]);
+  assert.deepEqual(await place(first), still);
+  await voice.filter({ hasText: (await page.locator(".measurement .tag-text").textContent()) }).waitFor();
+  assert.ok((await length()) < before - 1);
+  // Beside the ball it stays where it was.
+  for (let i = 0; i < 60; ++i) await page.keyboard.press("Shift+ArrowRight");
+  await voice.filter({ hasText: "Nothing there" }).waitFor();
+  assert.ok((await length()) > before);
+  assert.deepEqual((await viewer.scene()).camera, camera, "the keys have moved the camera");
+  await page.keyboard.press("Delete");
+  await page.locator(".measurement").waitFor({ state: "detached" });
+  await voice.filter({ hasText: "Distance deleted" }).waitFor();
+  assert.match(await page.evaluate(() => document.activeElement.getAttribute("aria-label")), /^View of the volume/, "the focus is lost");
 });
 
 test("keys alone measure a distance, whose length is told", async (t) => {

@@ -4,7 +4,7 @@ import { mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { execFileSync } from "node:child_process";
 import { after, test } from "node:test";
-import { closeBrowser, open, program, quick, writeBall } from "./page.mjs";
+import { closeBrowser, open, program, psnr, quick, writeBall } from "./page.mjs";
 
 after(closeBrowser);
 
@@ -155,6 +155,76 @@ test("a scene and its volume are dropped together", async (t) => {
   await drop(viewer, [ball, scene]);
   await opened(viewer, "mine.nrrd");
   assert.equal((await viewer.scene()).camera.azimuth_deg, 12);
+});
+
+/** A Radiance picture, red above and green below. */
+function writeSky(file, width, height) {
+  const pixels = Buffer.alloc(4 * width * height);
+  for (let i = 0; i < width * height; ++i) pixels.set(i < (width * height) / 2 ? [200, 20, 20, 132] : [20, 200, 20, 129], 4 * i);
+  writeFileSync(file, Buffer.concat([Buffer.from(`#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y ${height} +X ${width}\n`), pixels]));
+  return file;
+}
+
+test("an environment map of this computer lights the volume, and what is none changes nothing", async (t) => {
+  const viewer = await open(t, (scratch) => {
+    writeSky(join(scratch, "sky.hdr"), 16, 8);
+    return [writeBall(join(scratch, "ball.nrrd")), ...quick];
+  });
+  const { page, scratch } = viewer;
+  // As a picture is called that the viewer has itself.
+  mkdirSync(join(scratch, "own"));
+  const sky = writeSky(join(scratch, "own/sky.hdr"), 16, 8);
+  await viewer.done();
+  await viewer.panel("Lights and background");
+  await viewer.done();
+  const before = await viewer.shown("before.png");
+  let go;
+  await page.route("**/api/upload?*", async (route) => {
+    await new Promise((resolve) => (go = resolve));
+    await route.continue();
+  });
+  const pick = "Picture from this computer";
+  await choose(viewer, pick, sky);
+  await page.getByText("Uploading sky.hdr").waitFor();
+  assert.ok(await viewer.button(pick).isDisabled(), "two at a time");
+  go();
+  await page.getByText("sky.hdr lights the volume").waitFor();
+  await page.unroute("**/api/upload?*");
+  const lit = await viewer.sceneWith((s) => s.environment?.image === "sky.hdr", "the sky");
+  assert.equal(await page.getByRole("combobox", { name: "Picture" }).evaluate((select) => select.selectedOptions[0].textContent), "sky.hdr");
+  await viewer.done();
+  assert.ok(psnr(before, await viewer.shown("lit.png")) < 35, "it is as light as before");
+
+  writeFileSync(join(scratch, "text.hdr"), "no picture");
+  await choose(viewer, pick, join(scratch, "text.hdr"));
+  await page.getByText("text.hdr is damaged").waitFor();
+  await choose(viewer, pick, join(scratch, "ball.nrrd"));
+  await page.getByText("ball.nrrd cannot light the volume: expected a .hdr or .exr picture").waitFor();
+  await choose(viewer, pick, writeSky(join(scratch, "square.hdr"), 16, 16));
+  await page.getByText(/square\.hdr.*16 x 16; an environment is twice as wide as high/).waitFor();
+  await viewer.sceneWith((s) => s.environment.image === "sky.hdr", "the sky again");
+  assert.deepEqual(await viewer.scene(), lit);
+
+  await drop(viewer, [writeSky(join(scratch, "dropped.hdr"), 32, 16)]);
+  await viewer.sceneWith((s) => s.environment.image === "dropped.hdr", "what was dropped");
+  await viewer.undo();
+  await viewer.sceneWith((s) => s.environment.image === "sky.hdr", "the sky, one step back");
+  await viewer.undo();
+  await viewer.sceneWith((s) => !s.environment?.image, "no picture, one step back");
+});
+
+test("environment maps that cannot be taken are refused in a line", async (t) => {
+  const viewer = await open(t, [...quick, "--max-upload", "0.000002"]);
+  const sky = writeSky(join(viewer.scratch, "sky.hdr"), 64, 32);
+  await viewer.page.getByText("Open a volume").waitFor();
+  await drop(viewer, [sky]);
+  await viewer.page.getByText("sky.hdr is light for a volume: open one first").waitFor();
+  await viewer.page.getByRole("button", { name: /^Phantom/ }).click();
+  await viewer.done();
+  const before = await viewer.scene();
+  await drop(viewer, [sky]);
+  await viewer.page.getByText(/^sky\.hdr: /).waitFor();
+  assert.deepEqual(await viewer.scene(), before);
 });
 
 test("labels of this computer are added to the volume", async (t) => {

@@ -13,6 +13,11 @@ export function chromiumPath() {
   return [named, "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find((p) => p && existsSync(p)) ?? null;
 }
 
+/** Viewers that run. They end with this process, however that ends: by an error that nobody takes, too, and by signals. */
+const running = new Set();
+process.on("exit", () => running.forEach((child) => child.kill("SIGINT")));
+for (const [signal, code] of [["SIGHUP", 129], ["SIGINT", 130], ["SIGTERM", 143]]) process.on(signal, () => process.exit(code));
+
 /** The program as a viewer; `url` opens it. `end()` is its Ctrl-C and gives its exit code. Port 0 is any that is free. */
 export async function startViewer(args, environment = {}, port = 0) {
   const program = process.env.VOXLUME_BINARY ?? `${top}build/release/voxlume`;
@@ -21,7 +26,9 @@ export async function startViewer(args, environment = {}, port = 0) {
     env: { ...process.env, VOXLUME_PAGE: `${top}build/web`, VOXLUME_SAMPLES: `${top}data`, ...environment },
     stdio: ["ignore", "pipe", "inherit"],
   });
+  running.add(child);
   const exited = new Promise((resolve) => child.once("exit", (code) => resolve(code)));
+  exited.then(() => running.delete(child));
   const url = await new Promise((resolve, reject) => {
     let text = "";
     child.stdout.on("data", (data) => {

@@ -1,6 +1,6 @@
 import { render } from "preact";
 import { App } from "./shell/app";
-import { openLinkedScene } from "./shell/files";
+import { openLinkedScene } from "./shell/linked-scene";
 import { announceTrouble } from "./shell/notices";
 import { keepOnePanel } from "./shell/small-window";
 import { applyTheme } from "./shell/theme";

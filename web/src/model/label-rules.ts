@@ -1,6 +1,4 @@
-import type { Color, Rule, Transfer, TransferPoint } from "../state/scene-types";
-import { sampleAt } from "./curve";
-import { isDiscreteKind, isStepKind } from "./rules";
+import type { Color, Rule, TransferPoint } from "../state/scene-types";
 
 /**
  * How a label looks. All absent: as the function's own points have it.
@@ -22,7 +20,8 @@ export interface LabelLook {
  * above 0 applies: matter of 1e-9 / mm hides all rules after it and is itself never seen.
  */
 export const hiddenExtinction = 1e-9;
-const hiddenBelow = 1e-7;
+/** What is no more than this is hidden. */
+export const hiddenBelow = 1e-7;
 
 /** Whether the rule gives looks to single labels of `volume`. */
 function isLabelRule(rule: Rule, volume: string): boolean {
@@ -125,62 +124,6 @@ export function withLook(
 /** Whether other rules speak of the labels, too, so that the list shows only a part. */
 export function hasOtherRules(rules: readonly Rule[], volume: string): boolean {
   return rules.some((rule) => (rule.volume === volume || rule.along === volume) && !isOwned(rule, volume));
-}
-
-/** How a label is seen in the scene. */
-export interface LabelPaint {
-  hidden: boolean;
-  /** Absent: no rule gives one. */
-  color?: Color;
-}
-
-/** What a rule of one volume says of a value: points by value are looked up in a table. */
-function ruleAt(rule: Rule): (value: number) => TransferPoint | undefined {
-  const { points } = rule;
-  if (isDiscreteKind(rule.kind)) {
-    const byValue = new Map([...points].reverse().map((point) => [Math.round(point.value), point]));
-    return (value) => byValue.get(value);
-  }
-  if (isStepKind(rule.kind)) return (value) => points.filter((point) => point.value <= value).at(-1);
-  return (value) => (points.length ? sampleAt(points, value) : undefined);
-}
-
-const givesExtinction = (point: TransferPoint) => point.opacity !== undefined || point.mu_t_per_mm !== undefined;
-
-/**
- * How the rules of one dimension have labels of `volume`: the color is that of the first rule that gives one, itself or by its
- * material; rules of two dimensions may color a label by the data and do not count.
- */
-export function paintsOf(
-  { rules, merge }: Pick<Transfer, "rules" | "merge">,
-  volume: string,
-  values: Iterable<number>,
-  materialColor: (name: string) => Color | undefined,
-): Map<number, LabelPaint> {
-  const used = rules
-    .filter((rule) => rule.volume === volume && !rule.along)
-    .map((rule) => ({ at: ruleAt(rule), dense: rule.points.some(givesExtinction) }));
-  const paintOf = (value: number): LabelPaint => {
-    const paint: LabelPaint = { hidden: false };
-    let decided = false;
-    for (const { at, dense } of used) {
-      const point = at(value);
-      if (!point) {
-        // A product has nothing where one of its factors has nothing.
-        if (dense && merge === "product") paint.hidden = true;
-        continue;
-      }
-      const extinction = point.mu_t_per_mm ?? point.opacity;
-      // By priority and as the greatest, a rule without opacity does not apply.
-      if (extinction === 0 && merge !== "product") continue;
-      const clear = extinction === 0 || (point.mu_t_per_mm !== undefined && point.mu_t_per_mm <= hiddenBelow);
-      if (clear && (merge === "product" || (merge === "priority" && !decided))) paint.hidden = true;
-      if (extinction !== undefined) decided = true;
-      paint.color ??= point.color ?? (point.material ? materialColor(point.material) : undefined);
-    }
-    return paint;
-  };
-  return new Map([...values].map((value) => [value, paintOf(value)]));
 }
 
 /** What no label marks, in lists of labels. */

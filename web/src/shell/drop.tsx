@@ -53,7 +53,7 @@ export function DropTarget() {
       <div>
         <Icon name="upload" size={28} />
         <strong>Drop to open</strong>
-        <span>A volume, the folder or the files of a DICOM series, or a scene (.json)</span>
+        <span>A volume, the folder or the files of a DICOM series, a scene (.json), or a picture of surroundings as light (.hdr, .exr)</span>
       </div>
     </div>
   );

@@ -1,4 +1,5 @@
-import { namedInFolder, type NamedFile } from "./files";
+import { namedInFolder } from "./files";
+import type { NamedFile } from "./upload";
 
 /** What a drop brings: files, and the files of folders. */
 

@@ -7,7 +7,7 @@ import { Button, IconButton } from "../ui/controls";
 import { Icon } from "../ui/icons";
 import { signal } from "@preact/signals";
 import { formatBytes } from "./file-browser";
-import { upload } from "./files";
+import { upload } from "./upload";
 import { openDialog } from "./opening";
 
 /** What the page waits for, and what went wrong with it. */

@@ -6,7 +6,8 @@ import { Button } from "../ui/controls";
 import { Dialog } from "../ui/dialog";
 import { Icon } from "../ui/icons";
 import { FileBrowser } from "./file-browser";
-import { pickFiles, pickFolder, upload } from "./files";
+import { pickFiles, pickFolder } from "./files";
+import { upload } from "./upload";
 
 /** Choosing what to open: as a whole screen while nothing is, and as a dialog later. */
 

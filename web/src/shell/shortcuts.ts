@@ -193,11 +193,12 @@ export const pointerHelp: readonly { keys: string; what: string }[] = [
   { keys: "Alt + drag, twist", what: "Roll" },
   { keys: "Double click, double tap", what: "Orbit around this point" },
   { keys: "Click, while measuring", what: "An end of a distance, in the picture or a slice" },
+  { keys: "Arrows and Delete on an end of a distance", what: "Move it; delete the distance" },
   { keys: "Click, beside slices", what: "Slices through this point" },
   { keys: "Wheel, arrows, Page Up and Down on a slice", what: "Through the slices" },
   { keys: "Ctrl + wheel, pinch, + and - on a slice", what: "Zoom of all slices; F takes it back" },
-  { keys: "Middle or Shift + drag on a slice", what: "Move all slices" },
-  { keys: "Right drag on a slice", what: "Level and window" },
+  { keys: "Middle, Shift + or two-finger drag on a slice", what: "Move all slices" },
+  { keys: "Right drag on a slice", what: "Window and level" },
   { keys: "Wheel or Shift + drag on a light", what: "Its distance" },
 ];
 

@@ -1,5 +1,6 @@
 import { effect } from "@preact/signals";
 import type { SliceHeader } from "../model/slice";
+import { section } from "../state/scene";
 import { volume } from "../state/volume";
 
 /** A plane's samples, as /api/slice gives them. */
@@ -12,10 +13,13 @@ export interface Slice {
 const kKept = 96;
 const kept = new Map<string, Slice>();
 
-/** Which opening of a volume slices are of: another file may have planes at the same places. */
+/** Which opening of a volume slices are of: another file, or another proxy of a name, may have planes at the same
+ * places. */
 let opening = 0;
+const proxies = section("proxies");
 effect(() => {
   void volume.value;
+  void proxies.value;
   ++opening;
   kept.clear();
 });

@@ -7,7 +7,8 @@ import { startDrag } from "../ui/drag";
 import { measuring, removeLast, setEnd, type MeasuringPane } from "../view/distances";
 import { cursorStep, hideKeyCursor, moveKeyCursor, setEndAtKeyCursor } from "../view/key-cursor";
 import { pointAt } from "../view/probing";
-import { dragTool, panSlices, resetSlices, setWindow, sliceWindow, zoomSlices } from "./state";
+import { type Fingers } from "./fingers";
+import { dragTool, panSlices, paneView, resetSlices, setWindow, sliceWindow, zoomSlices } from "./state";
 
 /** What pointers, wheel and keys do on a slice. */
 
@@ -48,8 +49,8 @@ const kZoomOfKey = 1.25;
 const kZoomOfWheel = 0.006;
 const kMostWheel_px = 100;
 
-/** Handlers of the pane that shows `plane` at `mm` as `pane` has it. */
-export function sliceInput(plane: Plane, pane: PaneView, mm: number, facts: VolumeFacts) {
+/** Handlers of the pane that shows `plane` at `mm` as `pane` has it, with the fingers on it. */
+export function sliceInput(plane: Plane, pane: PaneView, mm: number, facts: VolumeFacts, fingers: Fingers) {
   const layout = planes[plane];
   const step = sliceStep_mm(facts);
   const pointOfEvent = (event: MouseEvent): Vec3 => {
@@ -60,18 +61,18 @@ export function sliceInput(plane: Plane, pane: PaneView, mm: number, facts: Volu
   const dragLevel = (event: PointerEvent) => {
     const from = sliceWindow.peek();
     const extent = facts.range[1] - facts.range[0];
-    startDrag(event, { move: ({ dx, dy }) => setWindow(dragWindow(from, dx, dy, extent)) }, [0, 2]);
+    return startDrag(event, { move: ({ dx, dy }) => setWindow(dragWindow(from, dx, dy, extent)) }, [0, 2]);
   };
   const dragPane = (event: PointerEvent) =>
     startDrag(event, { move: ({ stepX, stepY }) => panSlices(layout, stepX, stepY) }, [0, 1]);
   const dragCrosshair = (event: PointerEvent) => {
     setCrosshair(pointOfEvent(event));
-    startDrag(event, { move: ({ event: moved }) => setCrosshair(pointOfEvent(moved)) });
+    return startDrag(event, { move: ({ event: moved }) => setCrosshair(pointOfEvent(moved)) });
   };
 
   const clickEnd = (event: PointerEvent) => {
     const box = (event.currentTarget as Element).getBoundingClientRect();
-    startDrag(event, {
+    return startDrag(event, {
       move: () => undefined,
       end: ({ dx, dy, event: up }) => {
         if (up.type === "pointercancel" || Math.hypot(dx, dy) >= kClick_px) return;
@@ -80,12 +81,25 @@ export function sliceInput(plane: Plane, pane: PaneView, mm: number, facts: Volu
     });
   };
 
+  const startDragOf = (event: PointerEvent) => {
+    if (event.button === 1 || (event.button === 0 && event.shiftKey)) return dragPane(event);
+    if (event.button === 2 || (event.button === 0 && dragTool.peek() === "window")) return dragLevel(event);
+    if (event.button === 0 && measuring.peek()) return clickEnd(event);
+    return event.button === 0 ? dragCrosshair(event) : () => undefined;
+  };
   const down = (event: PointerEvent) => {
     if (event.target instanceof Element && event.target.closest(".handle")) return;
-    if (event.button === 1 || (event.button === 0 && event.shiftKey)) dragPane(event);
-    else if (event.button === 2 || (event.button === 0 && dragTool.peek() === "window")) dragLevel(event);
-    else if (event.button === 0 && measuring.peek()) clickEnd(event);
-    else if (event.button === 0) dragCrosshair(event);
+    if (event.pointerType === "touch") fingers.down(event, startDragOf);
+    else startDragOf(event);
+  };
+
+  const move = (event: PointerEvent) => {
+    const moved = fingers.move(event);
+    if (!moved) return hover(event);
+    panSlices(layout, moved.dx, moved.dy);
+    const box = (event.currentTarget as Element).getBoundingClientRect();
+    const about = pointOf(layout, paneView(pane), mm, moved.x - box.left, moved.y - box.top);
+    if (moved.factor !== 1) zoomSlices(moved.factor, about);
   };
 
   const hover = (event: PointerEvent) => {
@@ -131,5 +145,5 @@ export function sliceInput(plane: Plane, pane: PaneView, mm: number, facts: Volu
     event.stopPropagation();
   };
 
-  return { down, hover, wheel, keyDown };
+  return { down, move, wheel, keyDown };
 }

@@ -1,6 +1,6 @@
 import { useEffect, useMemo, useRef } from "preact/hooks";
 import { slicePlace, type PaneView, type PlaneLayout } from "../model/slice";
-import { labelColors } from "../state/label-colors";
+import { labelPaintings } from "../state/label-colors";
 import { paintGrey, paintLabels } from "./paint";
 import { overlayOpacity, sliceWindow } from "./state";
 import type { Shown } from "./use-slice";
@@ -18,11 +18,12 @@ export function SlicePicture({ layout, pane, shown, overlay }: SlicePictureProps
   const canvas = useRef<HTMLCanvasElement>(null);
   const window = sliceWindow.value;
   const grey = useMemo(() => shown && bitmapOf(paintGrey(shown.data, window)), [shown?.data, window]);
-  const colors = labelColors.value[overlay];
-  const tint = useMemo(
-    () => (shown?.labels && colors ? bitmapOf(paintLabels(shown.labels, colors)) : null),
-    [shown?.labels, colors],
-  );
+  const painting = labelPaintings.value[overlay];
+  const tint = useMemo(() => {
+    if (!shown?.labels || !painting) return null;
+    const { image, header } = paintLabels(shown.labels, painting, shown.beside);
+    return { bitmap: bitmapOf(image), header };
+  }, [shown, painting]);
   const { width, height, center_mm, pxPerMm } = pane;
 
   useEffect(() => {
@@ -35,10 +36,10 @@ export function SlicePicture({ layout, pane, shown, overlay }: SlicePictureProps
     if (!shown || !grey) return;
     context.imageSmoothingQuality = "high";
     drawSlice(context, grey, layout, slicePlace(layout, shown.data.header, pane));
-    if (!shown.labels || !tint) return;
+    if (!tint) return;
     context.imageSmoothingEnabled = false;
     context.globalAlpha = overlayOpacity.value;
-    drawSlice(context, tint, layout, slicePlace(layout, shown.labels.header, pane));
+    drawSlice(context, tint.bitmap, layout, slicePlace(layout, tint.header, pane));
   }, [grey, tint, width, height, center_mm, pxPerMm, overlayOpacity.value]);
   return <canvas ref={canvas} />;
 }

@@ -1,10 +1,12 @@
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import { formatCoordinate } from "../geometry/orientation";
 import { planes, type Plane, type Size } from "../model/slice";
 import { crosshair } from "../state/crosshair";
+import { labelPaintings } from "../state/label-colors";
 import { volume } from "../state/volume";
 import { measuring } from "../view/distances";
 import { pointAt } from "../view/probing";
+import { fingersOnPane } from "./fingers";
 import { goToSlice, sliceInput, slicePane, sliceStep_mm } from "./slice-input";
 import { SliceMarks } from "./slice-marks";
 import { SlicePicture } from "./slice-picture";
@@ -41,12 +43,13 @@ export function SliceView({ plane, overlay }: { plane: Plane; overlay: string })
   const pane = paneView(usePaneSize(plane, root));
   const facts = volume.value;
   const mm = crosshair.value?.[layout.normal] ?? 0;
-  const { shown, failure } = useSlice(layout.axis, mm, overlay);
+  const fingers = useMemo(fingersOnPane, []);
+  const { shown, failure } = useSlice(layout.axis, mm, overlay, labelPaintings.value[overlay]?.beside ?? []);
   if (!facts) return <div ref={root} class="slice" style={{ gridArea: plane }} />;
   const lo = facts.bounds_mm[0][layout.normal];
   const hi = facts.bounds_mm[1][layout.normal];
   const step = sliceStep_mm(facts);
-  const input = sliceInput(plane, pane, mm, facts);
+  const input = sliceInput(plane, pane, mm, facts, fingers);
   const { letters } = layout;
   const place = `${formatCoordinate(layout.normal, mm)} mm`;
   return (
@@ -58,7 +61,9 @@ export function SliceView({ plane, overlay }: { plane: Plane; overlay: string })
       role="application"
       aria-label={`${layout.title} slice at ${place}. ${measuring.value ? measuringKeys : sliceKeys}`}
       onPointerDown={input.down}
-      onPointerMove={input.hover}
+      onPointerMove={input.move}
+      onPointerUp={fingers.up}
+      onPointerCancel={fingers.up}
       onPointerLeave={() => pointAt(null)}
       onWheel={input.wheel}
       onKeyDown={input.keyDown}

@@ -142,22 +142,22 @@ export function SliceBar() {
         ))}
       </span>
       <label class="bar-number">
-        L{" "}
+        Window{" "}
+        <NumberInput
+          label="Window"
+          digits={1}
+          min={1e-9}
+          value={window.width}
+          onChange={(width) => setWindow({ ...window, width })}
+        />
+      </label>
+      <label class="bar-number">
+        Level{" "}
         <NumberInput
           label="Level"
           digits={1}
           value={window.level}
           onChange={(level) => setWindow({ ...window, level })}
-        />
-      </label>
-      <label class="bar-number">
-        W{" "}
-        <NumberInput
-          label="Width"
-          digits={1}
-          min={1e-9}
-          value={window.width}
-          onChange={(width) => setWindow({ ...window, width })}
         />
       </label>
       {known.length > 0 && (

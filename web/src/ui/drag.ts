@@ -17,9 +17,9 @@ export interface DragHandlers {
 }
 
 /** Starts a drag from a pointerdown event: use as `onPointerDown={(e) => startDrag(e, {...})}`. Only the primary button
- * (touch, pen) unless `buttons` says others. */
-export function startDrag(down: PointerEvent, handlers: DragHandlers, buttons: readonly number[] = [0]): void {
-  if (!buttons.includes(down.button)) return;
+ * (touch, pen) unless `buttons` says others. Returns what lets go of it before the pointer does; nothing is called then. */
+export function startDrag(down: PointerEvent, handlers: DragHandlers, buttons: readonly number[] = [0]): () => void {
+  if (!buttons.includes(down.button)) return () => undefined;
   const element = down.currentTarget as Element;
   element.setPointerCapture(down.pointerId);
   down.preventDefault();
@@ -43,15 +43,19 @@ export function startDrag(down: PointerEvent, handlers: DragHandlers, buttons: r
     const pointer = event as PointerEvent;
     if (pointer.pointerId === down.pointerId) handlers.move(drag(pointer));
   };
-  const end = (event: Event) => {
-    const pointer = event as PointerEvent;
-    if (pointer.pointerId !== down.pointerId) return;
+  const letGo = () => {
     element.removeEventListener("pointermove", move);
     element.removeEventListener("pointerup", end);
     element.removeEventListener("pointercancel", end);
+  };
+  const end = (event: Event) => {
+    const pointer = event as PointerEvent;
+    if (pointer.pointerId !== down.pointerId) return;
+    letGo();
     handlers.end?.(drag(pointer));
   };
   element.addEventListener("pointermove", move);
   element.addEventListener("pointerup", end);
   element.addEventListener("pointercancel", end);
+  return letGo;
 }

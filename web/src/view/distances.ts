@@ -39,7 +39,20 @@ const words = signal("");
 /** What is to be read aloud of measuring. */
 export const said: ReadonlySignal<string> = words;
 export function say(text: string): void {
+  clearTimeout(resting);
   words.value = text;
+}
+
+/** Of what goes on changing, only where it stops is said. */
+const kRest_ms = 250;
+let resting: ReturnType<typeof setTimeout> | undefined;
+/** Says it once nothing else has been said for a while; the text is asked for then, null says nothing. */
+export function sayAtRest(text: () => string | null): void {
+  clearTimeout(resting);
+  resting = setTimeout(() => {
+    const now = text();
+    if (now !== null) say(now);
+  }, kRest_ms);
 }
 
 /** Distances belong to a volume; one that fails to open changes nothing. */
@@ -100,8 +113,23 @@ export async function setEnd(pane: MeasuringPane, x: number, y: number): Promise
   say(`Distance ${lengthOf(added)}`);
 }
 
-/** Moves an end to a place of a pane [CSS px], if there is something. */
-export async function moveEnd(id: number, end: "a" | "b", pane: MeasuringPane, x: number, y: number): Promise<void> {
+/** Moves an end to a place of a pane [CSS px]; false where there is nothing. */
+export async function moveEnd(id: number, end: "a" | "b", pane: MeasuringPane, x: number, y: number): Promise<boolean> {
   const place = await probed(pane, x, y);
   if (place) measurements.value = measurements.value.map((one) => (one.id === id ? { ...one, [end]: place } : one));
+  return Boolean(place);
+}
+
+let steps: Promise<void> = Promise.resolve();
+
+/** Moves an end by a step in a pane [CSS px right, down], after the steps before, and says the length. */
+export function stepEnd(id: number, end: "a" | "b", pane: MeasuringPane, [dx, dy]: readonly [number, number]): void {
+  const step = async () => {
+    const find = () => measurements.peek().find((one) => one.id === id);
+    const from = find() && pane.place(find()![end]);
+    if (!from) return;
+    const moved = await moveEnd(id, end, pane, from.x + dx, from.y + dy);
+    sayAtRest(() => (moved ? (find() ? lengthOf(find()!) : null) : "Nothing there"));
+  };
+  steps = steps.then(step);
 }

@@ -1,6 +1,6 @@
 import { effect, signal, type ReadonlySignal } from "@preact/signals";
 import { formatPosition } from "../geometry/orientation";
-import { begun, lengthOf, measuring, say, setEnd, type MeasuringPane } from "./distances";
+import { begun, lengthOf, measuring, sayAtRest, setEnd, type MeasuringPane } from "./distances";
 import { pointAt, pointed } from "./probing";
 
 /** The cursor that keys move while distances are measured: a place of one pane [CSS px]. */
@@ -58,14 +58,10 @@ effect(() => {
   if (!measuring.value) hideKeyCursor();
 });
 
-/** Of a cursor that runs, only where it stops is said. */
-const kRest_ms = 250;
-let resting: ReturnType<typeof setTimeout> | undefined;
 effect(() => {
   const here = pointed.value?.position_mm;
-  clearTimeout(resting);
   if (!cursor.peek() || !moving) return;
   const from = begun.peek();
   const text = !here ? "Nothing here" : from ? lengthOf({ a: from, b: here }) : formatPosition(here);
-  resting = setTimeout(() => moving && say(text), kRest_ms);
+  sayAtRest(() => (moving ? text : null));
 });

@@ -10,10 +10,11 @@ import {
   moveEnd,
   removeMeasurement,
   said,
+  stepEnd,
   type Measurement,
   type MeasuringPane,
 } from "./distances";
-import { keyCursor } from "./key-cursor";
+import { cursorStep, keyCursor } from "./key-cursor";
 import { view, viewSize } from "./overlay";
 import { pointed } from "./probing";
 
@@ -61,6 +62,14 @@ function Line({ pane, of, children }: LineProps) {
   );
 }
 
+const removes = (event: KeyboardEvent) => event.key === "Delete" || event.key === "Backspace";
+
+/** Removes the distance that the focused handle is of; its pane has the focus then. */
+function removeAndLeave(handle: Element, of: Measurement): void {
+  handle.closest<HTMLElement>(".view, .slice")?.focus({ preventScroll: true });
+  removeMeasurement(of.id);
+}
+
 function End({ pane, of, end }: { pane: MeasuringPane; of: Measurement; end: "a" | "b" }) {
   const p = pane.place(of[end]);
   if (!p) return null;
@@ -77,8 +86,27 @@ function End({ pane, of, end }: { pane: MeasuringPane; of: Measurement; end: "a"
       end: ({ event: at }) => void follow(at),
     });
   };
+  const keyDown = (event: KeyboardEvent) => {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const step = cursorStep(event.key, event.shiftKey);
+    if (step) stepEnd(of.id, end, pane, step);
+    else if (removes(event)) removeAndLeave(event.currentTarget as Element, of);
+    else return;
+    event.preventDefault();
+    event.stopPropagation();
+  };
   return (
-    <g class="handle end" transform={`translate(${p.x} ${p.y})`} onPointerDown={press}>
+    <g
+      class="handle end"
+      role="button"
+      aria-roledescription="movable end"
+      tabindex={0}
+      aria-label={`${end === "a" ? "First" : "Second"} end of the distance of ${lengthOf(of)}`}
+      transform={`translate(${p.x} ${p.y})`}
+      onPointerDown={press}
+      onKeyDown={keyDown}
+    >
+      <title>Drag, or arrow keys (Shift: ten times as far); Delete removes the distance</title>
       <circle class="reach" r={12} />
       <circle class="dot" r={4} />
     </g>
@@ -87,10 +115,10 @@ function End({ pane, of, end }: { pane: MeasuringPane; of: Measurement; end: "a"
 
 function Remove({ of }: { of: Measurement }) {
   const keyDown = (event: KeyboardEvent) => {
-    if (event.key !== "Enter" && event.key !== "Delete") return;
+    if (event.key !== "Enter" && event.key !== " " && !removes(event)) return;
     event.preventDefault();
     event.stopPropagation();
-    removeMeasurement(of.id);
+    removeAndLeave(event.currentTarget as Element, of);
   };
   return (
     <g

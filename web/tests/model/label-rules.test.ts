@@ -2,7 +2,6 @@ import { describe, expect, it } from "vitest";
 import {
   hasOtherRules,
   hiddenExtinction,
-  paintsOf,
   readLooks,
   titleOf,
   withLook,
@@ -90,49 +89,7 @@ describe("looks of labels as rules", () => {
   });
 });
 
-describe("labels as they are seen", () => {
-  const gold = (name: string) => (name === "gold" ? "#d0a030" : undefined);
-  const paint = (rules: Rule[], value: number, merge: "priority" | "product" | "maximum" = "priority") =>
-    paintsOf({ rules, merge }, "atlas", [value], gold).get(value);
-
-  it("have the color of their look or of its material, or none of the scene's", () => {
-    const rules = writeLooks([], "atlas", new Map([...looks, [5, { material: "gold" }]]));
-    expect(paint(rules, 11)).toEqual({ hidden: false, color: "#30c040" });
-    expect(paint(rules, 5)).toEqual({ hidden: false, color: "#d0a030" });
-    expect(paint(rules, 9)).toEqual({ hidden: false });
-    expect(paint(rules, 77)).toEqual({ hidden: false });
-    expect(paint(rules, 4)?.hidden).toBe(true);
-  });
-
-  it("have the first color that a rule of their volume gives, also by steps and curves", () => {
-    const steps = rule("cpctf", "atlas", [
-      { value: 1, color: "#010101" },
-      { value: 5, color: "#050505" },
-    ]);
-    const one = rule("cdptf", "atlas", [{ value: 3, color: "#030303", roughness: 0.5 }]);
-    expect(paint([one, steps], 3)?.color).toBe("#030303");
-    expect(paint([steps, one], 3)?.color).toBe("#010101");
-    expect(paint([one, steps], 6)?.color).toBe("#050505");
-    expect(paint([one, steps], 0)?.color).toBeUndefined();
-    expect(paint([{ ...one, volume: "data" }], 3)?.color).toBeUndefined();
-    const curve = rule("cctf", "atlas", [
-      { value: 0, color: { linear: [0, 0, 0] } },
-      { value: 4, color: { linear: [1, 0, 0] } },
-    ]);
-    expect(paint([curve], 1)?.color).toEqual({ linear: [0.25, 0, 0] });
-  });
-
-  it("are hidden by the first rule that decides, by any factor of a product, never as the greatest", () => {
-    const clear = rule("cdptf", "atlas", [{ value: 1, mu_t_per_mm: hiddenExtinction }]);
-    const dense = rule("cdptf", "atlas", [{ value: 1, opacity: 0.9 }]);
-    expect(paint([clear, dense], 1)?.hidden).toBe(true);
-    expect(paint([dense, clear], 1)?.hidden).toBe(false);
-    expect(paint([dense, clear], 1, "product")?.hidden).toBe(true);
-    expect(paint([dense], 2, "product")?.hidden).toBe(true);
-    expect(paint([dense], 2)?.hidden).toBe(false);
-    expect(paint([clear, dense], 1, "maximum")?.hidden).toBe(false);
-  });
-
+describe("labels", () => {
   it("have titles that can be read", () => {
     expect(titleOf({ value: 3, name: "Frontal_Mid_L" })).toBe("Frontal Mid L");
     expect(titleOf({ value: 3, name: "" })).toBe("Label 3");

@@ -1,8 +1,10 @@
 import { joinScale, splitScale, toHex } from "../../color";
+import { pickEnvironmentMap } from "../../shell/files";
+import { upload } from "../../shell/upload";
 import { edit } from "../../state/scene";
 import { hello } from "../../state/session";
 import type { Scene } from "../../state/scene-types";
-import { ColorField, Segmented, Select, Toggle } from "../../ui/controls";
+import { Button, ColorField, Segmented, Select, Toggle } from "../../ui/controls";
 import { numberFields } from "../number-fields";
 
 /** Name, range, unit and step of the environment's numbers. */
@@ -19,10 +21,9 @@ export function EnvironmentFields({ of }: { of: Scene }) {
   const environment = of.environment;
   if (!environment) return null;
   const known = hello.value?.environments ?? [];
-  // The server may write the path in another form than it lists.
-  const listed = known.find(
-    ({ path }) => path === environment.image || environment.image.endsWith(`/${path.split("/").at(-1)}`),
-  );
+  // The path may be written in another form than is listed, and a picture of this computer be called as a listed one.
+  const inFolder = (path: string) => path.split("/").slice(-2).join("/");
+  const listed = known.find(({ path }) => path === environment.image || inFolder(path) === inFolder(environment.image));
   const options = [
     { value: "", label: "Constant color" },
     ...known.map(({ name, path }) => ({ value: path, label: name })),
@@ -39,6 +40,16 @@ export function EnvironmentFields({ of }: { of: Scene }) {
         options={options}
         onChange={(image) => edit([["/environment/image", image]])}
       />
+      <div class="row-actions">
+        <Button
+          icon="upload"
+          title="A picture of surroundings, twice as wide as high (.hdr or .exr)"
+          disabled={upload.value !== null}
+          onClick={pickEnvironmentMap}
+        >
+          Picture from this computer
+        </Button>
+      </div>
       <ColorField
         label={environment.image ? "Tint" : "Color"}
         value={hex}
