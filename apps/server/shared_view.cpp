@@ -97,6 +97,7 @@ void SharedView::opened(std::shared_ptr<OpenedVolume> volume) {
                                     for_each_path(s, [&](std::string& path) {
                                       if (!trusted.contains(path)) path = path_to_open(path).string();
                                     });
+                                    roots_.check_label_files(s);
                                   }};
   try {
     Document document(std::move(scene), rules);

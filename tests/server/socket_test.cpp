@@ -358,6 +358,49 @@ TEST_F(Socket, PathsInEditsAndScenesStayInside) {
   }
 }
 
+TEST_F(Socket, FilesBesideLabelsStayInside) {
+  namespace fs = std::filesystem;
+  write_bytes(folder_ / "hidden.txt", "1 hidden\n");
+  write_bytes(folder_ / "hidden.lut", std::string(768, '\1'));
+  for (const char* name : {"a.nrrd", "b.nrrd"}) fs::copy(files_ / "labels.nrrd", files_ / "inside" / name);
+  fs::create_symlink(folder_ / "hidden.txt", files_ / "inside/a.nrrd.txt");
+  fs::create_symlink("../../hidden.lut", files_ / "inside/b.lut");
+  Page page(start_with_ramp());
+  json scene = page.next("scene")["scene"];
+  int seq = 0;
+  const auto refusal = [&](const char* member, const json& value) {
+    page.send(edit(++seq, member, value));
+    return page.next("refused")["message"].get<std::string>();
+  };
+  for (const std::string path : {"inside/a.nrrd", "inside/b.nrrd"}) {
+    EXPECT_THAT(refusal("/labels", {{"path", path}}), HasSubstr("outside")) << path;
+    const json proxies = json::array({{{"name", "p"}, {"path", path}, {"lookup", "nearest"}}});
+    EXPECT_THAT(refusal("/proxies", proxies), HasSubstr("outside")) << path;
+    json other = scene;
+    other["labels"] = {{"path", path}};
+    page.send({{"type", "load"}, {"scene", other}});
+    EXPECT_THAT(
+        page.next("status", [](const json& m) { return m["stage"] == "failed"; })["message"].get<std::string>(),
+        HasSubstr("outside"));
+    other["labels"]["path"] = path.substr(7);
+    other["volume"]["path"] = "../ramp.nrrd";
+    write_bytes(files_ / "inside/scene.json", other.dump());
+    page.send({{"type", "open"}, {"path", "inside/scene.json"}});
+    EXPECT_THAT(
+        page.next("status", [](const json& m) { return m["stage"] == "failed"; })["message"].get<std::string>(),
+        HasSubstr("outside"));
+  }
+  // Where other names are given, and by a link that stays inside, labels are as good as any.
+  page.send(edit(++seq, "/labels", {{"path", "inside/a.nrrd"}, {"names", "labels.txt"}}));
+  EXPECT_EQ(page.next("edited")["seq"], seq);
+  EXPECT_EQ(json::parse(get(*address_, "/api/labels").body)["labels"][0]["name"], "left");
+  fs::remove(files_ / "inside/b.lut");
+  fs::create_symlink("../labels.txt", files_ / "inside/b.txt");
+  page.send(edit(++seq, "/labels", {{"path", "inside/b.nrrd"}}));
+  EXPECT_EQ(page.next("edited")["seq"], seq);
+  EXPECT_EQ(json::parse(get(*address_, "/api/labels").body)["labels"][1]["name"], "right");
+}
+
 TEST_F(Socket, PathsOfTheCommandLineMayBeAnywhere) {
   server::ServerOptions elsewhere = options();
   elsewhere.folder = files_ / "inside";
