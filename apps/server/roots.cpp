@@ -80,10 +80,11 @@ void Roots::check_label_files(const SceneDescription& scene) const {
     if (is_named(volume)) return;
     for (const fs::path& file : label_files_beside(volume))
       if (!leads_inside(file))
-        throw Error(ErrorCode::kBadParameter, where,
-                    file.filename().string() +
-                        ", beside it, leads to a file outside the folders of this viewer; name a file of label "
-                        "names inside them");
+        throw Error(
+            ErrorCode::kBadParameter, where,
+            file.filename().string() +
+                ", beside it, leads to a file outside the folders of this viewer; name a file of label "
+                "names inside them");
   };
   if (scene.labels && scene.labels->names.empty()) check(scene.labels->path, "/labels/path");
   for (std::size_t i = 0; i < scene.proxies.size(); ++i) {

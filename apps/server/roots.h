@@ -30,8 +30,8 @@ class Roots {
   /// what links in a folder lead to, must be inside as well. Not so of what was added itself.
   std::filesystem::path resolve_to_open(const std::string& text) const;
 
-  /// The files beside a scene's label volumes, whose paths are canonical, that names and colours are read from
-  /// must be inside as well. Not so of volumes that were added themselves. Throws Error kBadParameter.
+  /// The files beside a scene's label volumes, whose paths are canonical, that names and colours are read
+  /// from must be inside as well. Not so of volumes that were added themselves. Throws Error kBadParameter.
   void check_label_files(const SceneDescription& scene) const;
 
   /// Makes every path of `scene` absolute and canonical by resolve_to_open(), and looks at its label files.

@@ -379,16 +379,16 @@ TEST_F(Socket, FilesBesideLabelsStayInside) {
     json other = scene;
     other["labels"] = {{"path", path}};
     page.send({{"type", "load"}, {"scene", other}});
-    EXPECT_THAT(
-        page.next("status", [](const json& m) { return m["stage"] == "failed"; })["message"].get<std::string>(),
-        HasSubstr("outside"));
+    EXPECT_THAT(page.next("status", [](const json& m) { return m["stage"] == "failed"; })["message"]
+                    .get<std::string>(),
+                HasSubstr("outside"));
     other["labels"]["path"] = path.substr(7);
     other["volume"]["path"] = "../ramp.nrrd";
     write_bytes(files_ / "inside/scene.json", other.dump());
     page.send({{"type", "open"}, {"path", "inside/scene.json"}});
-    EXPECT_THAT(
-        page.next("status", [](const json& m) { return m["stage"] == "failed"; })["message"].get<std::string>(),
-        HasSubstr("outside"));
+    EXPECT_THAT(page.next("status", [](const json& m) { return m["stage"] == "failed"; })["message"]
+                    .get<std::string>(),
+                HasSubstr("outside"));
   }
   // Where other names are given, and by a link that stays inside, labels are as good as any.
   page.send(edit(++seq, "/labels", {{"path", "inside/a.nrrd"}, {"names", "labels.txt"}}));
