@@ -283,11 +283,11 @@ void SharedView::take(Viewer& from, const ProbeMessage& message) {
     place = place_in_picture(*frame_->frame, message.x, message.y);
   }
   if (!place) return from.send(shared_text(answer));
-  work([this, volume = volume_, scene = document_->scene(), place = *place, answer,
+  work([this, volume = volume_, scene = document_->shared_scene(), place = *place, answer,
         viewer = from.weak_from_this()]() mutable {
     answer["hit"] = true;
     answer.update(data_at(volume->session->session().volume(), place));
-    answer["labels"] = labels_at(scene, *volume->sides, place);
+    answer["labels"] = labels_at(*scene, *volume->sides, place);
     boost::asio::post(io_, [viewer, text = shared_text(answer)] {
       if (const auto to = viewer.lock()) to->send(text);
     });
@@ -391,7 +391,15 @@ std::filesystem::path SharedView::temporary_file(const std::string& extension) {
   return settings_.temporary / (std::to_string(++temporary_files_) + extension);
 }
 
-void SharedView::work(std::function<void()> job) { boost::asio::post(workers_, std::move(job)); }
+void SharedView::work(std::function<void()> job) {
+  boost::asio::post(workers_, [job = std::move(job)] {
+    try {
+      job();
+    } catch (const std::exception&) {
+      // Out of memory, say: this one is not answered, and all others are.
+    }
+  });
+}
 
 void SharedView::set_status(const OpeningStatus& of) {
   const Json status = status_json(of);

@@ -71,7 +71,7 @@ class SharedView {
   /// Calls `use` with the picture of the scene as it is now at its full size, as soon as there is one; with
   /// null where that takes too long.
   void with_still_picture(std::function<void(std::shared_ptr<const LiveFrame>)> use);
-  /// Does what takes a while on another thread.
+  /// Does what takes a while on another thread, where it ends with what it throws.
   void work(std::function<void()> job);
 
  private:

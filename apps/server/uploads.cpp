@@ -160,7 +160,7 @@ fs::path Uploads::opened_as(const fs::path& path) {
   }
   try {
     return main_file(path);
-  } catch (const Error&) {
+  } catch (const std::exception&) {
     give_up(path);
     throw;
   }

@@ -39,6 +39,19 @@ TEST_F(Socket, HelloComesFirstAndSaysWhatThereIs) {
   EXPECT_EQ(page.next("viewers")["count"], 1);
 }
 
+TEST_F(Socket, EnvironmentsThatAreToldOfCanBeRead) {
+  write_bytes(files_ / "sky.exr", "a picture");
+  write_bytes(folder_ / "hidden.exr", "a picture");
+  std::filesystem::create_symlink(folder_ / "hidden.exr", files_ / "link.exr");
+  std::filesystem::create_symlink("nothing.hdr", files_ / "dangling.hdr");
+  std::filesystem::create_symlink("sky.exr", files_ / "same.exr");
+  const json environments = Page(start()).next("hello")["environments"];
+  std::vector<std::string> names;
+  for (const json& one : environments) names.push_back(one["name"]);
+  EXPECT_THAT(names, testing::ElementsAre("same", "sky"));
+  EXPECT_THAT(environments.dump(), testing::Not(HasSubstr("hidden")));
+}
+
 TEST_F(Socket, OpeningTellsItsStagesThenTheSceneThenPictures) {
   Page page(start());
   page.send({{"type", "open"}, {"path", "ramp.nrrd"}});
@@ -492,6 +505,19 @@ TEST_F(Socket, ProbesFindPlaceValueAndLabel) {
   EXPECT_EQ(deep["labels"][0]["value"], 1);
   page.send({{"type", "probe"}, {"id", 11}, {"position_mm", {0, 0, 8.1}}});
   EXPECT_EQ(page.next("probe"), json({{"type", "probe"}, {"id", 11}, {"hit", false}}));
+}
+
+TEST_F(Socket, LabelsOfTheLongestNameAreProbedToo) {
+  // That of the file of their names would be too long for the disk.
+  const std::string longest = std::string(250, 'x') + ".nrrd";
+  std::filesystem::copy(files_ / "labels.nrrd", files_ / longest);
+  Page page(start_with_ramp());
+  page.send(edit(1, "/labels", {{"path", longest}}));
+  EXPECT_EQ(page.next("edited")["seq"], 1);
+  page.send({{"type", "probe"}, {"id", 1}, {"position_mm", {-3, 0, 0}}});
+  const json labels = page.next("probe")["labels"];
+  ASSERT_EQ(labels.size(), 1u);
+  EXPECT_EQ(labels[0]["value"], 1);
 }
 
 TEST_F(Socket, TroubleIsToldAndTheLastGoodPictureStays) {

@@ -193,6 +193,15 @@ TEST_F(UploadsOfPages, ASetIsOpenedAsTheOneThingThatItIs) {
   }
 }
 
+TEST_F(UploadsOfPages, WhatIsTooLargeForASceneIsNone) {
+  server::Uploads uploads(folder_ / "u", {.most_bytes = 1u << 30});
+  const UploadSet set{"1", "scan"};
+  send(uploads, "a.nrrd", "", set);
+  const fs::path folder =
+      send(uploads, "a.json", R"({"volume":{}})" + std::string(std::size_t{64} << 20, ' '), set);
+  EXPECT_EQ(uploads.opened_as(folder).filename(), "a.nrrd");
+}
+
 class UploadsToServer : public ServerTest {
  protected:
   static Answer put(const Address& at, const std::string& query, const std::string& bytes) {
