@@ -1,5 +1,6 @@
 #include "server/document.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 
@@ -12,6 +13,8 @@ namespace {
 
 using Json = nlohmann::json;
 
+/// Names in an address: no scene has more, and what is nested without end is not to be copied or written.
+constexpr std::ptrdiff_t kMostNames = 32;
 constexpr std::size_t kMostSteps = 200;
 constexpr std::size_t kMostHistoryBytes = std::size_t{64} << 20;
 /// What parse_scene puts before the address of a field.
@@ -105,6 +108,8 @@ SceneDescription parsed(const Json& scene) {
 
 void set_member(Json& scene, const std::string& pointer, const Json& value) {
   if (!pointer.starts_with('/')) refuse(pointer, "expected an address such as /camera/zoom");
+  if (std::count(pointer.begin(), pointer.end(), '/') > kMostNames)
+    refuse(pointer.substr(0, 64), "expected an address of at most " + std::to_string(kMostNames) + " names");
   Json* parent = &scene;
   for (std::size_t start = 1;;) {
     const std::size_t end = std::min(pointer.find('/', start), pointer.size());
@@ -123,17 +128,19 @@ void set_member(Json& scene, const std::string& pointer, const Json& value) {
 }
 
 Document::Document(SceneDescription scene, Rules rules)
-    : rules_(std::move(rules)), scene_(std::move(scene)), json_(Json::parse(write_scene(scene_, true))) {}
+    : rules_(std::move(rules)),
+      scene_(std::make_shared<const SceneDescription>(std::move(scene))),
+      json_(Json::parse(write_scene(*scene_, true))) {}
 
 Document::Accepted Document::accept(SceneDescription scene) const {
-  if (!(scene.volume == scene_.volume))
+  if (!(scene.volume == scene_->volume))
     refuse("/volume", "the volume is another one; open its file instead, or load the scene as a whole");
   const auto pixels = static_cast<std::int64_t>(scene.image.width) * scene.image.height;
   if (pixels > kMostPixels)
     refuse("/image/width", "found " + std::to_string(scene.image.width) + " x " +
                                std::to_string(scene.image.height) + ", expected at most " +
                                std::to_string(kMostPixels) + " pixels on screen");
-  rules_.check_paths(scene, scene_);
+  rules_.check_paths(scene, *scene_);
   Accepted accepted{rules_.resolve(scene), {}};
   accepted.json = Json::parse(write_scene(accepted.scene, true));
   return accepted;
@@ -145,7 +152,7 @@ Json Document::become(Accepted accepted, const std::string& gesture) {
   const Json before = without_size(json_), after = without_size(accepted.json);
   const Json forward = differences(before, after);
   json_ = std::move(accepted.json);
-  scene_ = std::move(accepted.scene);
+  scene_ = std::make_shared<const SceneDescription>(std::move(accepted.scene));
   if (forward.empty()) return changed;  // a size alone is no step, and ends no gesture
   redone_.clear();
   Json backward = differences(after, before);
@@ -196,7 +203,7 @@ bool Document::take_step(std::deque<Step>& from, std::deque<Step>& to, Json Step
   for (const auto& [key, value] : (from.back().*members).items()) set_member(scene, "/" + key, value);
   scene["image"]["width"] = json_["image"]["width"];
   scene["image"]["height"] = json_["image"]["height"];
-  scene_ = parsed(scene);
+  scene_ = std::make_shared<const SceneDescription>(parsed(scene));
   json_ = std::move(scene);
   from.back().gesture.clear();
   to.push_back(std::move(from.back()));

@@ -1,6 +1,7 @@
 #pragma once
 #include <deque>
 #include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
@@ -29,7 +30,9 @@ class Document {
   /// Starts with `scene`, which is resolved. Throws Error kBadParameter where a text in it is not UTF-8.
   Document(SceneDescription scene, Rules rules);
 
-  const SceneDescription& scene() const { return scene_; }
+  const SceneDescription& scene() const { return *scene_; }
+  /// The same for other threads, who may keep it: it is never changed.
+  std::shared_ptr<const SceneDescription> shared_scene() const { return scene_; }
   /// The scene with every field.
   const nlohmann::json& json() const { return json_; }
   bool can_undo() const { return !undone_.empty(); }
@@ -68,7 +71,7 @@ class Document {
   void forget_oldest();
 
   Rules rules_;
-  SceneDescription scene_;
+  std::shared_ptr<const SceneDescription> scene_;
   nlohmann::json json_;
   std::deque<Step> undone_, redone_;  ///< what undo and redo would take, the next one last
 };

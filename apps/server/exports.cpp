@@ -77,7 +77,7 @@ pid_t spawn(const std::vector<std::string>& arguments, const fs::path& folder) {
   posix_spawnattr_destroy(&attributes);
   if (failed)
     fail(ErrorCode::kInternal, arguments.front(), std::string("cannot be started: ") + std::strerror(failed));
-  ::setpriority(PRIO_PROCESS, static_cast<id_t>(child), kNice);
+  ::setpriority(PRIO_PGRP, static_cast<id_t>(child), kNice);  // of a process, it would be that of one thread
   return child;
 }
 

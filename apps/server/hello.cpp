@@ -41,7 +41,8 @@ json materials() {
   return out;
 }
 
-void add_environments(const fs::path& folder, json& out) {
+/// Those that pages may read: no link of the folder tells what it leads to elsewhere.
+void add_environments(const fs::path& folder, const Roots& roots, json& out) {
   std::error_code failed;
   std::vector<fs::path> paths;
   for (auto it = fs::directory_iterator(folder, failed); !failed && it != fs::directory_iterator();
@@ -51,8 +52,11 @@ void add_environments(const fs::path& folder, json& out) {
   }
   std::sort(paths.begin(), paths.end());
   for (const fs::path& path : paths) {
-    const fs::path canonical = fs::canonical(path, failed);
-    if (!failed) out.push_back({{"name", path.stem().string()}, {"path", canonical.string()}});
+    try {
+      out.push_back({{"name", path.stem().string()}, {"path", roots.resolve(path.string()).string()}});
+    } catch (const Error&) {
+      continue;  // leads outside, or nowhere
+    }
   }
 }
 
@@ -91,8 +95,8 @@ json hello_message(const std::vector<Sample>& samples, const fs::path& environme
   for (const DenoiserKind& kind : denoiser_kinds())
     out["denoisers"].push_back({{"name", kind.name}, {"summary", kind.summary}});
   out["environments"] = json::array();
-  if (!environments.empty()) add_environments(environments, out["environments"]);
-  if (roots.folder() != environments) add_environments(roots.folder(), out["environments"]);
+  if (!environments.empty()) add_environments(environments, roots, out["environments"]);
+  if (roots.folder() != environments) add_environments(roots.folder(), roots, out["environments"]);
   out["samples"] = json::array();
   for (const Sample& sample : samples)
     out["samples"].push_back({{"name", sample.name}, {"path", sample.path}, {"summary", sample.summary}});

@@ -6,6 +6,7 @@
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 
+#include <algorithm>
 #include <limits>
 
 #include "server/viewer.h"
@@ -126,7 +127,6 @@ void HttpConnection::get(const Target& target) {
 void HttpConnection::put(const Target& target) {
   if (target.path != "/api/upload")
     return reply(error_reply(Status::not_found, "there is no such request"), false);
-  const std::uint64_t room = parts_.uploads.room();
   std::optional<UploadSet> set;
   if (target.query.contains("set")) set = {target.value("set"), target.value("folder")};
   try {
@@ -134,16 +134,21 @@ void HttpConnection::put(const Target& target) {
   } catch (const std::exception& error) {
     return reply(upload_refusal(error), false);
   }
-  if (parser_->content_length().value_or(0) > room) {
+  const std::uint64_t room = parts_.uploads.room(), wanted = parser_->content_length().value_or(room);
+  upload_->reserve(std::min(wanted, room));
+  if (wanted > room) {
     upload_.reset();
     return reply(error_reply(Status::payload_too_large, "there is no room for a file of that size"), false);
   }
   const bool expects = beast::iequals(parser_->get()[http::field::expect], "100-continue");
   upload_parser_.emplace(std::move(*parser_));
-  upload_parser_->body_limit(room);
+  upload_parser_->body_limit(wanted);
   error_code failed;
   upload_parser_->get().body().open(upload_->path().c_str(), beast::file_mode::write_new, failed);
-  if (failed) return reply(error_reply(Status::service_unavailable, failed.message()), false);
+  if (failed) {
+    upload_.reset();
+    return reply(error_reply(Status::service_unavailable, failed.message()), false);
+  }
   expects ? go_ahead() : read_upload();
 }
 

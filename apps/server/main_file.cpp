@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/file_extension.h"
+#include "scene/scene_file.h"
 #include "server/header_files.h"
 #include "volume_io/file_format.h"
 #include "voxlume/error.h"
@@ -27,9 +28,11 @@ std::string listed(const std::vector<fs::path>& files) {
                                     : out;
 }
 
-/// Other programs write .json beside their volumes, too.
+/// Other programs write .json beside their volumes, too, of any size.
 bool is_scene(const fs::path& file) {
-  if (lower_extension(file) != ".json") return false;
+  std::error_code failed;
+  if (lower_extension(file) != ".json" || fs::file_size(file, failed) > kMaxSceneBytes || failed)
+    return false;
   std::ifstream stream(file);
   constexpr bool kThrows = false;
   const auto json = nlohmann::json::parse(stream, nullptr, kThrows);

@@ -5,7 +5,6 @@
 
 #include "grid/grid_view.h"
 #include "grid/sample.h"
-#include "voxlume/error.h"
 
 namespace voxlume::server {
 
@@ -52,7 +51,7 @@ json labels_at(const SceneDescription& scene, SideVolumes& sides, Vec3d p_world)
       if (!grid.index_box().contains(p_index)) continue;
       const float value = sample_nearest(grid, p_index);
       out.push_back({{"of", name}, {"value", value}, {"name", label_name(side->table, value)}});
-    } catch (const Error&) {
+    } catch (const std::exception&) {
       continue;  // the picture's own trouble tells of it
     }
   }

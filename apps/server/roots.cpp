@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scene/labels.h"
 #include "scene/scene_file.h"
 #include "server/header_files.h"
 #include "voxlume/error.h"
@@ -46,33 +47,58 @@ fs::path Roots::resolve(const std::string& text) const {
   return canonical;
 }
 
+bool Roots::leads_inside(const fs::path& path) const {
+  std::error_code failed;
+  const fs::path canonical = fs::weakly_canonical(path, failed);
+  return !failed && contains(canonical);
+}
+
+bool Roots::is_named(const fs::path& canonical) const {
+  return std::find(roots_.begin() + 1, roots_.end(), canonical) != roots_.end();
+}
+
 fs::path Roots::resolve_to_open(const std::string& text) const {
   const fs::path path = resolve(text);
-  const bool is_named = std::find(roots_.begin() + 1, roots_.end(), path) != roots_.end();
-  if (is_named) return path;
+  if (is_named(path)) return path;
   std::error_code failed;
-  const auto is_inside = [&](const fs::path& other) {
-    const fs::path data = fs::weakly_canonical(other, failed);
-    return !failed && contains(data);
-  };
   if (fs::is_directory(path, failed)) {
     for (const fs::path& link : links_in_folder(path))
-      if (!is_inside(link))
+      if (!leads_inside(link))
         throw Error(ErrorCode::kBadParameter, text,
                     link.filename().string() + " in it leads to a file outside the folders of this viewer");
     return path;
   }
   for (const std::string& name : files_named_in_header(path))
-    if (!is_inside(path.parent_path() / name))
+    if (!leads_inside(path.parent_path() / name))
       throw Error(ErrorCode::kBadParameter, text,
                   "its voxels are in a file outside the folders of this viewer");
   return path;
+}
+
+void Roots::check_label_files(const SceneDescription& scene) const {
+  const auto check = [&](const std::string& volume, const std::string& where) {
+    if (is_named(volume)) return;
+    for (const fs::path& file : label_files_beside(volume))
+      if (!leads_inside(file))
+        throw Error(
+            ErrorCode::kBadParameter, where,
+            file.filename().string() +
+                ", beside it, leads to a file outside the folders of this viewer; name a file of label "
+                "names inside them");
+  };
+  if (scene.labels && scene.labels->names.empty()) check(scene.labels->path, "/labels/path");
+  for (std::size_t i = 0; i < scene.proxies.size(); ++i) {
+    const ProxyDescription& proxy = scene.proxies[i];
+    if (proxy.kind == ProxyKind::kFile && proxy.lookup == Lookup::kNearest)
+      check(proxy.path, "/proxies/" + std::to_string(i) + "/path");
+  }
 }
 
 void Roots::resolve_paths(SceneDescription& scene, const std::set<std::string>& trusted) const {
   for_each_path(scene, [&](std::string& path) {
     if (!trusted.contains(path)) path = resolve_to_open(path).string();
   });
+  check_label_files(scene);
 }
 
 std::set<std::string> scene_paths(SceneDescription scene) {

@@ -30,12 +30,20 @@ class Roots {
   /// what links in a folder lead to, must be inside as well. Not so of what was added itself.
   std::filesystem::path resolve_to_open(const std::string& text) const;
 
-  /// Makes every path of `scene` absolute and canonical by resolve_to_open(). Paths that `trusted` has as
-  /// they are stay so. Throws Error, those of resolve().
+  /// The files beside a scene's label volumes, whose paths are canonical, that names and colours are read
+  /// from must be inside as well. Not so of volumes that were added themselves. Throws Error kBadParameter.
+  void check_label_files(const SceneDescription& scene) const;
+
+  /// Makes every path of `scene` absolute and canonical by resolve_to_open(), and looks at its label files.
+  /// Paths that `trusted` has as they are stay so. Throws Error, those of resolve().
   void resolve_paths(SceneDescription& scene, const std::set<std::string>& trusted = {}) const;
 
  private:
   bool contains(const std::filesystem::path& canonical) const;
+  /// Whether what a path leads to is in the roots.
+  bool leads_inside(const std::filesystem::path& path) const;
+  /// Whether it was added itself.
+  bool is_named(const std::filesystem::path& canonical) const;
 
   std::vector<std::filesystem::path> roots_;
 };

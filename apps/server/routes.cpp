@@ -119,8 +119,10 @@ Reply Routes::page(const std::string& path, std::string_view if_none_match) cons
 
 void Routes::api(const Target& target, const Respond& respond) const {
   const std::string name = target.path.substr(std::string_view("/api/").size());
-  if (name == "files")
-    return respond(json_reply(text_of(folder_listing(view_.roots(), target.value("path")))));
+  if (name == "files")  // of a disk that may be slow
+    return work(respond, [&roots = view_.roots(), path = target.value("path")] {
+      return json_reply(text_of(folder_listing(roots, path)));
+    });
   if (name.starts_with("export/")) return respond(finished_export(name.substr(7)));
   if (view_.document() == nullptr && is_of_volume(name))
     return respond(error_reply(Status::not_found, "nothing is open"));
@@ -153,25 +155,25 @@ void Routes::work(const Respond& respond, std::function<Reply()> job) const {
 }
 
 void Routes::labels(const Respond& respond) const {
-  work(respond, [volume = view_.volume(), scene = view_.document()->scene()] {
+  work(respond, [volume = view_.volume(), scene = view_.document()->shared_scene()] {
     nlohmann::json out = nlohmann::json::object();
-    for (const std::string& name : label_volume_names(scene))
-      out[name] = labels_json(*volume->sides->find(scene, name));
+    for (const std::string& name : label_volume_names(*scene))
+      out[name] = labels_json(*volume->sides->find(*scene, name));
     return json_reply(text_of(out));
   });
 }
 
 void Routes::histogram(const Target& target, const Respond& respond) const {
-  work(respond, [volume = view_.volume(), scene = view_.document()->scene(), of = target.value("of")] {
-    return json_reply(text_of(histogram_json(volume->sides->find(scene, of)->statistics)));
+  work(respond, [volume = view_.volume(), scene = view_.document()->shared_scene(), of = target.value("of")] {
+    return json_reply(text_of(histogram_json(volume->sides->find(*scene, of)->statistics)));
   });
 }
 
 void Routes::joint_histogram(const Target& target, const Respond& respond) const {
-  work(respond, [volume = view_.volume(), scene = view_.document()->scene(), x = target.value("x"),
+  work(respond, [volume = view_.volume(), scene = view_.document()->shared_scene(), x = target.value("x"),
                  y = target.value("y")] {
     Reply reply = json_reply("");
-    reply.body = volume->joint->find(*volume->sides, scene, x, y);
+    reply.body = volume->joint->find(*volume->sides, *scene, x, y);
     return reply;
   });
 }
@@ -185,9 +187,9 @@ void Routes::slice(const Target& target, const Respond& respond) const {
     return respond(error_reply(Status::bad_request, "expected axis=x, y or z and mm, a number"));
   request.place_mm = *place;
   const std::string of = target.value("of");
-  work(respond, [volume = view_.volume(), scene = view_.document()->scene(), of, request]() mutable {
+  work(respond, [volume = view_.volume(), scene = view_.document()->shared_scene(), of, request]() mutable {
     const Session& session = volume->session->session();
-    const auto side = of.empty() || of == "data" ? nullptr : volume->sides->find(scene, of);
+    const auto side = of.empty() || of == "data" ? nullptr : volume->sides->find(*scene, of);
     const VolumeStatistics& statistics = side ? side->statistics : session.statistics();
     request.nearest = side && side->labels;
     request.lower = statistics.lower;
@@ -201,8 +203,8 @@ void Routes::picture(const std::string& extension, const Respond& respond) const
     if (!frame || view_.document() == nullptr)
       return respond(error_reply(Status::service_unavailable, "the picture is not there yet; ask again"));
     const auto file = view_.temporary_file(extension);
-    work(respond, [frame, file, scene = view_.document()->scene(), extension] {
-      save_picture(*frame->linear, scene, file);
+    work(respond, [frame, file, scene = view_.document()->shared_scene(), extension] {
+      save_picture(*frame->linear, *scene, file);
       Reply reply;
       reply.type = extension == ".png" ? "image/png" : "image/x-exr";
       reply.file = file;

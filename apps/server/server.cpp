@@ -119,7 +119,7 @@ struct Server::Parts {
       : io(context),
         port(acceptor.local_endpoint().port()),
         access(make_token(), options.address, port),
-        uploads(temporary.path() / "uploads", options.most_upload_bytes),
+        uploads(temporary.path() / "uploads", {.most_bytes = options.most_upload_bytes}),
         view(io, view_settings(options, temporary.path()),
              allowed_roots(options, temporary.path() / "uploads"), uploads),
         routes(view, PageFiles(options.page)),

@@ -69,7 +69,11 @@ SharedView::SharedView(boost::asio::io_context& io, Settings settings, Roots roo
       exports_(io, settings_.program, settings_.temporary / "exports",
                [this](const Json& m) { take_export_state(m); }),
       opening_(io, settings_.live,
-               {.status = [this](const OpeningStatus& status) { set_status(status); },
+               {.status =
+                    [this](const OpeningStatus& status) {
+                      if (status.stage == "failed") open_failed();
+                      set_status(status);
+                    },
                 .opened = [this](std::shared_ptr<OpenedVolume> volume) { opened(std::move(volume)); },
                 .frame = [this](const FrameMessage& frame) { take_frame(frame); },
                 .trouble = [this](const std::string& message) { tell_trouble(message); },
@@ -83,7 +87,18 @@ SharedView::~SharedView() {
   volume_.reset();
 }
 
-void SharedView::open(const SceneDescription& scene) { opening_.open(scene); }
+void SharedView::open(const SceneDescription& scene, const fs::path& from) {
+  opening_paths_ = {scene.volume.path, from};
+  opening_.open(scene);
+}
+
+void SharedView::open_failed() {
+  for (const fs::path& path : opening_paths_) uploads_.give_up(path);
+}
+
+void SharedView::keep_uploads() {
+  for (const std::string& path : scene_paths(document_->scene())) uploads_.keep(path);
+}
 
 void SharedView::opened(std::shared_ptr<OpenedVolume> volume) {
   SceneDescription scene = volume->session->session().description();
@@ -97,13 +112,17 @@ void SharedView::opened(std::shared_ptr<OpenedVolume> volume) {
                                     for_each_path(s, [&](std::string& path) {
                                       if (!trusted.contains(path)) path = path_to_open(path).string();
                                     });
+                                    roots_.check_label_files(s);
                                   }};
   try {
     Document document(std::move(scene), rules);
     document_.emplace(std::move(document));
   } catch (const Error& error) {
+    open_failed();
     return set_status({"failed", volume->name, error.what(), {}});
   }
+  for (const fs::path& path : opening_paths_) uploads_.keep(path);
+  keep_uploads();
   if (volume_) opening_.retire(std::move(volume_));
   volume_ = std::move(volume);
   *volume_->numbering = {last_frame_, revision_};
@@ -191,6 +210,7 @@ void SharedView::take(Viewer& from, const EditMessage& message) {
   const std::string gesture =
       message.gesture.empty() ? "" : std::to_string(from.page_number()) + " " + message.gesture;
   const Json sections = document.edit(message.set, gesture);
+  keep_uploads();
   if (!sections.empty()) show();
   if (sections.contains("image"))
     screen_size_ = {document.scene().image.width, document.scene().image.height};
@@ -219,6 +239,7 @@ void SharedView::take(Viewer&, const LoadMessage& message) {
   keep_screen_size(scene);
   if (!document_ || !(scene.volume == document_->scene().volume)) return open(scene);
   document_->replace(scene);
+  keep_uploads();
   show();
   tell_scene();
 }
@@ -226,12 +247,17 @@ void SharedView::take(Viewer&, const LoadMessage& message) {
 void SharedView::take(Viewer&, const OpenMessage& message) {
   if (message.path == kPhantomPath) return open(fresh_scene(std::string(kPhantomPath)));
   const fs::path path = path_to_open(message.path);
-  if (lower_extension(path) != ".json") return open(fresh_scene(path.string()));
-  SceneDescription scene = read_scene(path);
-  find_uploads(scene, path.parent_path());
-  roots_.resolve_paths(scene);
-  keep_screen_size(scene);
-  open(scene);
+  if (lower_extension(path) != ".json") return open(fresh_scene(path.string()), path);
+  try {
+    SceneDescription scene = read_scene(path);
+    find_uploads(scene, path.parent_path());
+    roots_.resolve_paths(scene);
+    keep_screen_size(scene);
+    open(scene, path);
+  } catch (const Error&) {
+    uploads_.give_up(path);
+    throw;
+  }
 }
 
 void SharedView::take(Viewer&, const SplitMessage& message) {
@@ -257,11 +283,11 @@ void SharedView::take(Viewer& from, const ProbeMessage& message) {
     place = place_in_picture(*frame_->frame, message.x, message.y);
   }
   if (!place) return from.send(shared_text(answer));
-  work([this, volume = volume_, scene = document_->scene(), place = *place, answer,
+  work([this, volume = volume_, scene = document_->shared_scene(), place = *place, answer,
         viewer = from.weak_from_this()]() mutable {
     answer["hit"] = true;
     answer.update(data_at(volume->session->session().volume(), place));
-    answer["labels"] = labels_at(scene, *volume->sides, place);
+    answer["labels"] = labels_at(*scene, *volume->sides, place);
     boost::asio::post(io_, [viewer, text = shared_text(answer)] {
       if (const auto to = viewer.lock()) to->send(text);
     });
@@ -288,7 +314,13 @@ Document& SharedView::open_document() {
 }
 
 fs::path SharedView::path_to_open(const std::string& path) {
-  return roots_.resolve_to_open(uploads_.opened_as(roots_.resolve(path)).string());
+  const fs::path file = uploads_.opened_as(roots_.resolve(path));
+  try {
+    return roots_.resolve_to_open(file.string());
+  } catch (const Error&) {
+    uploads_.give_up(file);
+    throw;
+  }
 }
 
 void SharedView::find_uploads(SceneDescription& scene, const fs::path& scene_folder) const {
@@ -359,7 +391,15 @@ std::filesystem::path SharedView::temporary_file(const std::string& extension) {
   return settings_.temporary / (std::to_string(++temporary_files_) + extension);
 }
 
-void SharedView::work(std::function<void()> job) { boost::asio::post(workers_, std::move(job)); }
+void SharedView::work(std::function<void()> job) {
+  boost::asio::post(workers_, [job = std::move(job)] {
+    try {
+      job();
+    } catch (const std::exception&) {
+      // Out of memory, say: this one is not answered, and all others are.
+    }
+  });
+}
 
 void SharedView::set_status(const OpeningStatus& of) {
   const Json status = status_json(of);

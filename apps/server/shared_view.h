@@ -43,8 +43,9 @@ class SharedView {
   const Roots& roots() const { return roots_; }
   const Uploads& uploads() const { return uploads_; }
 
-  /// Opens a scene and its volume, whose paths may be read, instead of what is open.
-  void open(const SceneDescription& scene);
+  /// Opens a scene and its volume, whose paths may be read, instead of what is open. `from` is the path that
+  /// was asked for, where one was.
+  void open(const SceneDescription& scene, const std::filesystem::path& from = {});
 
   void join(const std::shared_ptr<Viewer>& viewer);
   void leave(Viewer& viewer);
@@ -70,7 +71,7 @@ class SharedView {
   /// Calls `use` with the picture of the scene as it is now at its full size, as soon as there is one; with
   /// null where that takes too long.
   void with_still_picture(std::function<void(std::shared_ptr<const LiveFrame>)> use);
-  /// Does what takes a while on another thread.
+  /// Does what takes a while on another thread, where it ends with what it throws.
   void work(std::function<void()> job);
 
  private:
@@ -100,6 +101,10 @@ class SharedView {
   bool is_current_still(const FrameMessage& frame) const;
   void hand_out_stills(const std::shared_ptr<const LiveFrame>& frame);
   void set_status(const OpeningStatus& of);
+  /// Uploads that could not be opened are given up.
+  void open_failed();
+  /// The scene's uploads stay.
+  void keep_uploads();
   void show();
   void tell_all(const Json& message, const Viewer* but = nullptr);
   void tell_trouble(const std::string& message);
@@ -123,6 +128,7 @@ class SharedView {
   std::map<const Viewer*, std::shared_ptr<Viewer>> viewers_;
   std::uint64_t page_numbers_ = 0;
 
+  std::vector<std::filesystem::path> opening_paths_;  ///< what the newest open reads
   std::shared_ptr<OpenedVolume> volume_;
   std::optional<Document> document_;
   std::uint64_t revision_ = 0;  ///< what was asked for last, as viewers know it

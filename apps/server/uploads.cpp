@@ -15,6 +15,8 @@ namespace {
 
 constexpr std::uint64_t kDiskReserveBytes = std::uint64_t{256} << 20;  // left for others
 constexpr std::size_t kMostNameBytes = 200;
+constexpr const char* kEnded =
+    "it is complete, or a file of it was refused or broke off; send all of it again";
 
 std::uint64_t bytes_of(const fs::path& file) {
   std::error_code failed;
@@ -36,35 +38,44 @@ bool is_plain_file_name(const std::string& name) {
          });
 }
 
-Uploads::Uploads(fs::path folder, std::uint64_t most_bytes, std::size_t most_files_of_set)
-    : folder_(std::move(folder)), most_bytes_(most_bytes), most_files_of_set_(most_files_of_set) {
+Uploads::Uploads(fs::path folder, const Limits& limits) : folder_(std::move(folder)), limits_(limits) {
   fs::create_directories(folder_);
 }
 
 std::uint64_t Uploads::room() const {
-  std::uint64_t used = used_bytes_;
-  for (const Incoming* one : incoming_) used += bytes_of(one->path());
-  const std::uint64_t left = used < most_bytes_ ? most_bytes_ - used : 0;
+  std::uint64_t used = used_bytes_, awaited = 0;
+  for (const Incoming* one : incoming_) {
+    const std::uint64_t there = bytes_of(one->path()), all = std::max(there, one->reserved_bytes());
+    used += all;
+    awaited += all - there;
+  }
+  const std::uint64_t left = used < limits_.most_bytes ? limits_.most_bytes - used : 0;
   std::error_code failed;
   const fs::space_info disk = fs::space(folder_, failed);
   if (failed) return left;
-  return std::min<std::uint64_t>(left,
-                                 disk.available > kDiskReserveBytes ? disk.available - kDiskReserveBytes : 0);
+  const std::uint64_t taken = kDiskReserveBytes + awaited;
+  return std::min<std::uint64_t>(left, disk.available > taken ? disk.available - taken : 0);
 }
 
 std::unique_ptr<Uploads::Incoming> Uploads::begin(const std::string& name,
                                                   const std::optional<UploadSet>& set) {
-  check_name(name, "name");
-  if (set) {
+  drop_abandoned();
+  if (!set) {
+    check_name(name, "name");
+    return std::make_unique<Incoming>(*this, name, "");
+  }
+  try {
     check_name(set->id, "set");
     check_name(set->folder, "folder");
-    if (set_of(*set).files++ >= most_files_of_set_) {
-      drop(set->id);
+    check_name(name, "name");
+    if (set_of(*set).files++ >= limits_.most_files_of_set)
       throw Error(ErrorCode::kUnsupported, "set",
-                  "expected at most " + std::to_string(most_files_of_set_) + " files");
-    }
+                  "expected at most " + std::to_string(limits_.most_files_of_set) + " files");
+  } catch (const Error&) {
+    drop(set->id);
+    throw;
   }
-  return std::make_unique<Incoming>(*this, name, set ? set->id : "");
+  return std::make_unique<Incoming>(*this, name, set->id);
 }
 
 fs::path Uploads::new_folder() {
@@ -73,8 +84,14 @@ fs::path Uploads::new_folder() {
   return folder;
 }
 
+fs::path Uploads::folder_of(const fs::path& path) const {
+  return folder_ / *path.lexically_relative(folder_).begin();
+}
+
 Uploads::Set& Uploads::set_of(const UploadSet& named) {
+  if (ended_.contains(named.id)) throw Error(ErrorCode::kBadParameter, "set", kEnded);
   Set& set = sets_[named.id];
+  set.touched = Clock::now();
   if (!set.folder.empty()) return set;
   set.folder = new_folder() / named.folder;
   fs::create_directories(set.folder);
@@ -84,35 +101,67 @@ Uploads::Set& Uploads::set_of(const UploadSet& named) {
 void Uploads::drop(std::string id) {
   const auto found = sets_.find(id);
   if (found == sets_.end()) return;
-  std::error_code ignored;
-  fs::remove_all(found->second.folder.parent_path(), ignored);
-  used_bytes_ -= found->second.bytes;
+  remove(found->second.folder.parent_path(), found->second.bytes);
   sets_.erase(found);
+  ended_.insert(id);
+}
+
+/// Who began them went away between two files.
+void Uploads::drop_abandoned() {
+  std::set<std::string> abandoned;
+  for (const auto& [id, set] : sets_)
+    if (Clock::now() - set.touched >= limits_.patience) abandoned.insert(id);
+  for (const Incoming* one : incoming_) abandoned.erase(one->set());
+  for (const std::string& id : abandoned) drop(id);
+}
+
+void Uploads::remove(const fs::path& folder, std::uint64_t bytes) {
+  std::error_code ignored;
+  fs::remove_all(folder, ignored);
+  used_bytes_ -= bytes;
+}
+
+void Uploads::keep(const fs::path& path) {
+  if (!contains(path)) return;
+  if (const auto found = whole_.find(folder_of(path)); found != whole_.end()) found->second.kept = true;
+}
+
+void Uploads::give_up(const fs::path& path) {
+  if (!contains(path)) return;
+  const auto found = whole_.find(folder_of(path));
+  if (found == whole_.end() || found->second.kept) return;
+  for (auto& [name, paths] : named_)
+    std::erase_if(paths, [&](const fs::path& one) { return folder_of(one) == found->first; });
+  remove(found->first, found->second.bytes);
+  whole_.erase(found);
 }
 
 fs::path Uploads::find(const std::string& name) const {
-  const auto found = newest_.find(fs::path(name).lexically_normal().string());
-  return found == newest_.end() ? fs::path() : found->second;
+  const auto found = named_.find(fs::path(name).lexically_normal().string());
+  return found == named_.end() || found->second.empty() ? fs::path() : found->second.back();
 }
 
 bool Uploads::contains(const fs::path& path) const {
-  return std::mismatch(folder_.begin(), folder_.end(), path.begin(), path.end()).first == folder_.end();
+  const auto [end, rest] = std::mismatch(folder_.begin(), folder_.end(), path.begin(), path.end());
+  return end == folder_.end() && rest != path.end();
 }
 
 fs::path Uploads::opened_as(const fs::path& path) {
   if (!contains(path)) return path;
   const auto set =
       std::find_if(sets_.begin(), sets_.end(), [&](const auto& one) { return one.second.folder == path; });
-  if (set == sets_.end()) return main_file(path);
-  try {
-    const fs::path file = main_file(path);
-    newest_[path.filename().string()] = path;
+  if (set != sets_.end()) {
+    whole_[folder_of(path)] = {set->second.bytes};
+    named_[path.filename().string()].push_back(path);
     for (const auto& entry : fs::directory_iterator(path))
-      newest_[entry.path().filename().string()] = entry.path();
+      named_[entry.path().filename().string()].push_back(entry.path());
+    ended_.insert(set->first);
     sets_.erase(set);
-    return file;
-  } catch (const Error&) {
-    drop(set->first);
+  }
+  try {
+    return main_file(path);
+  } catch (const std::exception&) {
+    give_up(path);
     throw;
   }
 }
@@ -157,8 +206,7 @@ fs::path Uploads::Incoming::finish() {
   Uploads& uploads = **uploads_.lock();
   const auto set = uploads.sets_.find(set_);
   const bool of_set = set != uploads.sets_.end();
-  if (!set_.empty() && !of_set)
-    throw Error(ErrorCode::kBadParameter, "set", "it is complete, or a file of it broke off");
+  if (!set_.empty() && !of_set) throw Error(ErrorCode::kBadParameter, "set", kEnded);
   const fs::path whole = (of_set ? set->second.folder : uploads.new_folder()) / name_;
   std::error_code failed;
   if (fs::exists(whole, failed))
@@ -168,8 +216,12 @@ fs::path Uploads::Incoming::finish() {
   if (failed) throw Error(ErrorCode::kInternal, name_, failed.message());
   finished_ = true;
   uploads.used_bytes_ += bytes;
-  if (!of_set) return uploads.newest_[name_] = whole;
+  if (!of_set) {
+    uploads.whole_[whole.parent_path()] = {bytes};
+    return uploads.named_[name_].emplace_back(whole);
+  }
   set->second.bytes += bytes;
+  set->second.touched = Clock::now();
   return set->second.folder;
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -6,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "voxlume/scene.h"
 
@@ -32,6 +34,11 @@ class Uploads {
 
     /// Where the bytes go until all are there.
     const std::filesystem::path& path() const { return path_; }
+    /// The id of its set; empty: it stands alone.
+    const std::string& set() const { return set_; }
+    /// It will have so many bytes at most; they are taken from the room of others.
+    void reserve(std::uint64_t bytes) { reserved_bytes_ = bytes; }
+    std::uint64_t reserved_bytes() const { return reserved_bytes_; }
     /// Puts the whole file in place. Returns what is to be opened: the file, of a set its folder. Throws
     /// Error kBadParameter where the set has a file of that name, kInternal.
     std::filesystem::path finish();
@@ -40,21 +47,35 @@ class Uploads {
     const std::weak_ptr<Uploads*> uploads_;
     const std::string name_, set_;
     std::filesystem::path path_;
+    std::uint64_t reserved_bytes_ = 0;
     bool finished_ = false;
   };
 
-  Uploads(std::filesystem::path folder, std::uint64_t most_bytes, std::size_t most_files_of_set = 20000);
+  struct Limits {
+    std::uint64_t most_bytes = 0;  ///< of all together
+    std::size_t most_files_of_set = 20000;
+    /// A set that nobody goes on with, nor opens, is given up after so long.
+    std::chrono::steady_clock::duration patience = std::chrono::minutes(10);
+  };
+
+  Uploads(std::filesystem::path folder, const Limits& limits);
 
   /// Bytes that one more may have: of the limit what is left, and of the disk.
   std::uint64_t room() const;
-  /// Throws Error: kBadParameter where `name`, or a name of the set, is not the plain name of a file,
-  /// kUnsupported where the set has too many files.
+  /// Throws Error: kBadParameter where `name`, or a name of the set, is not the plain name of a file, or the
+  /// set is complete or gone; kUnsupported where it has too many files. What is refused takes its set with
+  /// it.
   std::unique_ptr<Incoming> begin(const std::string& name,
                                   const std::optional<UploadSet>& set = std::nullopt);
 
   /// What `path` is opened as: of uploads their main_file(), of all others itself. No further file may come
-  /// to a set. Throws Error, those of main_file(); then the set is gone.
+  /// to a set. Throws Error, those of main_file(); then it is given up.
   std::filesystem::path opened_as(const std::filesystem::path& path);
+  /// What is at `path`, with its set, is in use and stays.
+  void keep(const std::filesystem::path& path);
+  /// What is at `path` could not be opened: unless it was kept before, it is gone, with its set. All paths
+  /// but those of uploads are passed over.
+  void give_up(const std::filesystem::path& path);
   /// The newest file or folder of that name, of sets that were opened; empty where there is none.
   std::filesystem::path find(const std::string& name) const;
 
@@ -63,25 +84,38 @@ class Uploads {
   std::set<std::string> name_uploads(SceneDescription& scene) const;
 
  private:
+  using Clock = std::chrono::steady_clock;
+  /// Files that may still get more.
   struct Set {
     std::filesystem::path folder;
     std::size_t files = 0;
     std::uint64_t bytes = 0;
+    Clock::time_point touched{};
+  };
+  /// A file, or a set that is complete.
+  struct Whole {
+    std::uint64_t bytes = 0;
+    bool kept = false;
   };
 
   bool contains(const std::filesystem::path& path) const;
   std::filesystem::path new_folder();
+  /// The folder of new_folder() that a path of uploads is in.
+  std::filesystem::path folder_of(const std::filesystem::path& path) const;
   Set& set_of(const UploadSet& named);
   void drop(std::string set);
+  void drop_abandoned();
+  void remove(const std::filesystem::path& folder, std::uint64_t bytes);
 
   const std::filesystem::path folder_;
-  const std::uint64_t most_bytes_;
-  const std::size_t most_files_of_set_;
+  const Limits limits_;
   std::uint64_t count_ = 0, used_bytes_ = 0;
   std::set<const Incoming*> incoming_;
   const std::shared_ptr<Uploads*> self_ = std::make_shared<Uploads*>(this);
   std::map<std::string, Set> sets_;                      ///< by id; those that are not complete
-  std::map<std::string, std::filesystem::path> newest_;  ///< by name
+  std::set<std::string> ended_;                          ///< ids of sets that are complete or gone
+  std::map<std::filesystem::path, Whole> whole_;         ///< by the folder of new_folder()
+  std::map<std::string, std::vector<std::filesystem::path>> named_;  ///< by name, the newest last
 };
 
 /// Whether a name may be a file's: text without slashes and control characters that does not begin with a

@@ -1,5 +1,6 @@
 #include "scene/labels.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -81,6 +82,18 @@ std::vector<fs::path> companions(const fs::path& volume, const std::string& endi
 
 }  // namespace
 
+std::vector<fs::path> label_files_beside(const fs::path& volume_path) {
+  std::vector<fs::path> out;
+  for (const char* ending : {".lut", ".txt"}) {
+    const std::vector<fs::path> names = companions(volume_path, ending);
+    std::error_code failed;
+    const auto found = std::find_if(names.begin(), names.end(),
+                                    [&](const fs::path& path) { return fs::is_regular_file(path, failed); });
+    if (found != names.end()) out.push_back(*found);
+  }
+  return out;
+}
+
 LabelTable read_label_table(const fs::path& volume_path, const fs::path& names_path, std::size_t count) {
   LabelTable table;
   table.names.resize(count);
@@ -93,13 +106,7 @@ LabelTable read_label_table(const fs::path& volume_path, const fs::path& names_p
       throw Error(ErrorCode::kFileNotFound, names_path.string(), "no such file of label names");
     read(names_path);
   } else {
-    for (const char* ending : {".lut", ".txt"}) {
-      for (const fs::path& path : companions(volume_path, ending)) {
-        if (!fs::is_regular_file(path)) continue;
-        read(path);
-        break;
-      }
-    }
+    for (const fs::path& path : label_files_beside(volume_path)) read(path);
   }
   for (std::size_t i = 1; i < count; ++i)
     if (table.colors[i].x < 0) table.colors[i] = spread_color(i);

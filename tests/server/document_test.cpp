@@ -140,6 +140,7 @@ TEST_F(DocumentTest, AddressesThatLeadNowhereAreRefused) {
         "/lights/-1", "/lights/18446744073709551616", "/camera/~2", "/camera/~", "/"})
     EXPECT_NE(refusal(document, {{pointer, 1}}), "") << pointer;
   EXPECT_NE(refusal(document, {{"/lights/-", nullptr}}), "");
+  EXPECT_THAT(refusal(document, {{std::string(4000, '/'), 1}}), HasSubstr("at most 32 names"));
   EXPECT_NE(refusal(document, {{"/lights/99", nullptr}}), "");
 }
 

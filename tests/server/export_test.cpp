@@ -1,5 +1,9 @@
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdlib>
+#include <sstream>
 
 #include "server_fixture.h"
 
@@ -58,6 +62,54 @@ TEST_F(Export, CanBeCancelled) {
   page->send({{"type", "cancel_export"}});  // nothing is under way: nothing happens
   page->send(edit(1, "/camera/zoom", 2));
   EXPECT_EQ(page->next("edited")["seq"], 1);
+}
+
+/// The processes that render an animation for this one.
+std::vector<std::filesystem::path> rendering_processes() {
+  std::vector<std::filesystem::path> out;
+  const auto read = [](const std::filesystem::path& path) {
+    try {
+      return read_bytes(path);
+    } catch (const std::exception&) {
+      return std::string();  // it has ended
+    }
+  };
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    const std::string number = entry.path().filename();
+    if (number.find_first_not_of("0123456789") != std::string::npos) continue;
+    const std::string command = read(entry.path() / "cmdline"), stat = read(entry.path() / "stat");
+    const std::size_t name_end = stat.rfind(')');  // then the state, and the parent
+    if (name_end == std::string::npos || !command.starts_with(VOXLUME_BINARY)) continue;
+    if (stat.substr(name_end + 4).starts_with(std::to_string(::getpid()) + " ")) out.push_back(entry.path());
+  }
+  return out;
+}
+
+/// Of a process or thread: the 19th field of its stat.
+int nice_value(const std::filesystem::path& process) {
+  const std::string stat = read_bytes(process / "stat");
+  std::istringstream fields(stat.substr(stat.rfind(')') + 1));
+  std::string field;
+  for (int i = 3; i <= 19; ++i) fields >> field;
+  return std::stoi(field);
+}
+
+TEST_F(Export, HasTheLeastPriority) {
+  const auto page = open(10000, 64);
+  page->send({{"type", "export"}, {"file", "long.zip"}});
+  page->next("export", [](const json& m) { return m["frames_done"] >= 1; });
+  const auto processes = rendering_processes();
+  ASSERT_EQ(processes.size(), 1u);
+  EXPECT_EQ(nice_value(processes[0]), 19);
+  int threads = 0;
+  for (const auto& thread : std::filesystem::directory_iterator(processes[0] / "task")) {
+    EXPECT_EQ(nice_value(thread.path()), 19);
+    ++threads;
+  }
+  EXPECT_GE(threads, 1);
+  EXPECT_EQ(nice_value("/proc/self"), ::getpriority(PRIO_PROCESS, 0));  // this one's is as it was
+  page->send({{"type", "cancel_export"}});
+  state(*page, "cancelled");
 }
 
 /// With an ffmpeg that never comes to an end, and tells its process.

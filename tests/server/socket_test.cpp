@@ -39,6 +39,19 @@ TEST_F(Socket, HelloComesFirstAndSaysWhatThereIs) {
   EXPECT_EQ(page.next("viewers")["count"], 1);
 }
 
+TEST_F(Socket, EnvironmentsThatAreToldOfCanBeRead) {
+  write_bytes(files_ / "sky.exr", "a picture");
+  write_bytes(folder_ / "hidden.exr", "a picture");
+  std::filesystem::create_symlink(folder_ / "hidden.exr", files_ / "link.exr");
+  std::filesystem::create_symlink("nothing.hdr", files_ / "dangling.hdr");
+  std::filesystem::create_symlink("sky.exr", files_ / "same.exr");
+  const json environments = Page(start()).next("hello")["environments"];
+  std::vector<std::string> names;
+  for (const json& one : environments) names.push_back(one["name"]);
+  EXPECT_THAT(names, testing::ElementsAre("same", "sky"));
+  EXPECT_THAT(environments.dump(), testing::Not(HasSubstr("hidden")));
+}
+
 TEST_F(Socket, OpeningTellsItsStagesThenTheSceneThenPictures) {
   Page page(start());
   page.send({{"type", "open"}, {"path", "ramp.nrrd"}});
@@ -358,6 +371,49 @@ TEST_F(Socket, PathsInEditsAndScenesStayInside) {
   }
 }
 
+TEST_F(Socket, FilesBesideLabelsStayInside) {
+  namespace fs = std::filesystem;
+  write_bytes(folder_ / "hidden.txt", "1 hidden\n");
+  write_bytes(folder_ / "hidden.lut", std::string(768, '\1'));
+  for (const char* name : {"a.nrrd", "b.nrrd"}) fs::copy(files_ / "labels.nrrd", files_ / "inside" / name);
+  fs::create_symlink(folder_ / "hidden.txt", files_ / "inside/a.nrrd.txt");
+  fs::create_symlink("../../hidden.lut", files_ / "inside/b.lut");
+  Page page(start_with_ramp());
+  json scene = page.next("scene")["scene"];
+  int seq = 0;
+  const auto refusal = [&](const char* member, const json& value) {
+    page.send(edit(++seq, member, value));
+    return page.next("refused")["message"].get<std::string>();
+  };
+  for (const std::string path : {"inside/a.nrrd", "inside/b.nrrd"}) {
+    EXPECT_THAT(refusal("/labels", {{"path", path}}), HasSubstr("outside")) << path;
+    const json proxies = json::array({{{"name", "p"}, {"path", path}, {"lookup", "nearest"}}});
+    EXPECT_THAT(refusal("/proxies", proxies), HasSubstr("outside")) << path;
+    json other = scene;
+    other["labels"] = {{"path", path}};
+    page.send({{"type", "load"}, {"scene", other}});
+    EXPECT_THAT(page.next("status", [](const json& m) { return m["stage"] == "failed"; })["message"]
+                    .get<std::string>(),
+                HasSubstr("outside"));
+    other["labels"]["path"] = path.substr(7);
+    other["volume"]["path"] = "../ramp.nrrd";
+    write_bytes(files_ / "inside/scene.json", other.dump());
+    page.send({{"type", "open"}, {"path", "inside/scene.json"}});
+    EXPECT_THAT(page.next("status", [](const json& m) { return m["stage"] == "failed"; })["message"]
+                    .get<std::string>(),
+                HasSubstr("outside"));
+  }
+  // Where other names are given, and by a link that stays inside, labels are as good as any.
+  page.send(edit(++seq, "/labels", {{"path", "inside/a.nrrd"}, {"names", "labels.txt"}}));
+  EXPECT_EQ(page.next("edited")["seq"], seq);
+  EXPECT_EQ(json::parse(get(*address_, "/api/labels").body)["labels"][0]["name"], "left");
+  fs::remove(files_ / "inside/b.lut");
+  fs::create_symlink("../labels.txt", files_ / "inside/b.txt");
+  page.send(edit(++seq, "/labels", {{"path", "inside/b.nrrd"}}));
+  EXPECT_EQ(page.next("edited")["seq"], seq);
+  EXPECT_EQ(json::parse(get(*address_, "/api/labels").body)["labels"][1]["name"], "right");
+}
+
 TEST_F(Socket, PathsOfTheCommandLineMayBeAnywhere) {
   server::ServerOptions elsewhere = options();
   elsewhere.folder = files_ / "inside";
@@ -449,6 +505,19 @@ TEST_F(Socket, ProbesFindPlaceValueAndLabel) {
   EXPECT_EQ(deep["labels"][0]["value"], 1);
   page.send({{"type", "probe"}, {"id", 11}, {"position_mm", {0, 0, 8.1}}});
   EXPECT_EQ(page.next("probe"), json({{"type", "probe"}, {"id", 11}, {"hit", false}}));
+}
+
+TEST_F(Socket, LabelsOfTheLongestNameAreProbedToo) {
+  // That of the file of their names would be too long for the disk.
+  const std::string longest = std::string(250, 'x') + ".nrrd";
+  std::filesystem::copy(files_ / "labels.nrrd", files_ / longest);
+  Page page(start_with_ramp());
+  page.send(edit(1, "/labels", {{"path", longest}}));
+  EXPECT_EQ(page.next("edited")["seq"], 1);
+  page.send({{"type", "probe"}, {"id", 1}, {"position_mm", {-3, 0, 0}}});
+  const json labels = page.next("probe")["labels"];
+  ASSERT_EQ(labels.size(), 1u);
+  EXPECT_EQ(labels[0]["value"], 1);
 }
 
 TEST_F(Socket, TroubleIsToldAndTheLastGoodPictureStays) {

@@ -1,5 +1,9 @@
 #include "server/uploads.h"
 
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/read_until.hpp>
+#include <boost/asio/write.hpp>
+
 #include "server_fixture.h"
 #include "voxlume/error.h"
 
@@ -32,7 +36,7 @@ class UploadsOfPages : public testing::Test {
 };
 
 TEST_F(UploadsOfPages, FilesOfASetLieTogether) {
-  server::Uploads uploads(folder_ / "u", 1000);
+  server::Uploads uploads(folder_ / "u", {.most_bytes = 1000});
   const UploadSet set{"1", "scan"};
   const fs::path scan = send(uploads, "a.dcm", "a", set);
   EXPECT_EQ(scan.filename(), "scan");
@@ -43,7 +47,7 @@ TEST_F(UploadsOfPages, FilesOfASetLieTogether) {
 }
 
 TEST_F(UploadsOfPages, NamesDoNotEscape) {
-  server::Uploads uploads(folder_ / "u", 1000);
+  server::Uploads uploads(folder_ / "u", {.most_bytes = 1000});
   for (const std::string& wrong : std::vector<std::string>{"", ".", "..", "../x", "a/b", "/etc", ".hidden",
                                                            "a\\b", "a\nb", std::string(300, 'x')}) {
     EXPECT_NE(refusal([&] { uploads.begin(wrong); }), "") << wrong;
@@ -55,7 +59,7 @@ TEST_F(UploadsOfPages, NamesDoNotEscape) {
 }
 
 TEST_F(UploadsOfPages, SetsAreBounded) {
-  server::Uploads uploads(folder_ / "u", 1000, 3);
+  server::Uploads uploads(folder_ / "u", {.most_bytes = 1000, .most_files_of_set = 3});
   const UploadSet set{"1", "scan"};
   for (const char* name : {"a", "b", "c"}) send(uploads, name, std::string(100, 'x'), set);
   EXPECT_EQ(uploads.room(), 700u);
@@ -64,7 +68,7 @@ TEST_F(UploadsOfPages, SetsAreBounded) {
 }
 
 TEST_F(UploadsOfPages, ASetThatBreaksOffIsGone) {
-  server::Uploads uploads(folder_ / "u", 1000);
+  server::Uploads uploads(folder_ / "u", {.most_bytes = 1000});
   const UploadSet set{"1", "scan"};
   const fs::path scan = send(uploads, "a.dcm", "aaa", set);
   send(uploads, "alone", "b");
@@ -77,8 +81,72 @@ TEST_F(UploadsOfPages, ASetThatBreaksOffIsGone) {
             "");  // twice the same name
 }
 
+TEST_F(UploadsOfPages, ASetIsGoneWithWhateverIsRefusedOfIt) {
+  server::Uploads uploads(folder_ / "u", {.most_bytes = 1000});
+  const UploadSet set{"1", "scan"};
+  const fs::path scan = send(uploads, "a.dcm", "aaa", set);
+  EXPECT_NE(refusal([&] { uploads.begin("../b.dcm", set); }), "");
+  EXPECT_FALSE(fs::exists(scan));
+  EXPECT_EQ(uploads.room(), 1000u);
+  // What was still on its way to it does not begin it anew.
+  EXPECT_THAT(refusal([&] { uploads.begin("c.dcm", set); }), HasSubstr("send all of it again"));
+  EXPECT_EQ(uploads.room(), 1000u);
+}
+
+TEST_F(UploadsOfPages, ASetThatNobodyGoesOnWithIsGone) {
+  server::Uploads uploads(folder_ / "u", {.most_bytes = 1000, .patience = std::chrono::seconds(0)});
+  const fs::path opened = send(uploads, "o.dcm", "o", UploadSet{"1", "opened"});
+  uploads.opened_as(opened);
+  const auto slow = uploads.begin("s.dcm", UploadSet{"2", "slow"});
+  const fs::path left = send(uploads, "l.dcm", "l", UploadSet{"3", "left"});
+  send(uploads, "alone", "a");
+  EXPECT_TRUE(fs::exists(opened));
+  EXPECT_FALSE(fs::exists(left));
+  write_bytes(slow->path(), "s");
+  EXPECT_TRUE(fs::exists(slow->finish()));
+  EXPECT_EQ(uploads.room(), 997u);
+}
+
+TEST_F(UploadsOfPages, WhatIsGivenUpIsGoneUnlessItWasKept) {
+  server::Uploads uploads(folder_ / "u", {.most_bytes = 1000});
+  const fs::path first = send(uploads, "a.nrrd", "aaa"), second = send(uploads, "a.nrrd", "bbbb");
+  EXPECT_EQ(uploads.find("a.nrrd"), second);
+  uploads.give_up(second);
+  EXPECT_FALSE(fs::exists(second));
+  EXPECT_EQ(uploads.room(), 997u);
+  EXPECT_EQ(uploads.find("a.nrrd"), first);
+  uploads.keep(first);
+  uploads.give_up(first);
+  EXPECT_EQ(read_bytes(first), "aaa");
+  const fs::path scan = send(uploads, "1.dcm", "x", UploadSet{"1", "scan"});
+  uploads.give_up(scan);  // not complete: it may still get files
+  EXPECT_TRUE(fs::exists(scan));
+  uploads.opened_as(scan);
+  uploads.give_up(scan);
+  EXPECT_FALSE(fs::exists(scan));
+  EXPECT_EQ(uploads.find("scan"), "");
+  EXPECT_EQ(uploads.room(), 997u);
+  write_bytes(folder_ / "mine", "m");
+  uploads.give_up(folder_ / "mine");
+  uploads.give_up(folder_ / "u");
+  EXPECT_TRUE(fs::exists(folder_ / "mine"));
+  EXPECT_TRUE(fs::exists(first));
+}
+
+TEST_F(UploadsOfPages, WhatIsReservedTakesRoomBeforeItIsThere) {
+  server::Uploads uploads(folder_ / "u", {.most_bytes = 1000});
+  auto first = uploads.begin("a");
+  first->reserve(600);
+  EXPECT_EQ(uploads.room(), 400u);
+  write_bytes(first->path(), std::string(500, 'x'));
+  EXPECT_EQ(uploads.room(), 400u);
+  first->finish();
+  first.reset();
+  EXPECT_EQ(uploads.room(), 500u);
+}
+
 TEST_F(UploadsOfPages, WhatIsOnItsWayTakesRoom) {
-  server::Uploads uploads(folder_ / "u", 1000);
+  server::Uploads uploads(folder_ / "u", {.most_bytes = 1000});
   const auto incoming = uploads.begin("a");
   write_bytes(incoming->path(), std::string(600, 'x'));
   EXPECT_EQ(uploads.room(), 400u);
@@ -87,7 +155,7 @@ TEST_F(UploadsOfPages, WhatIsOnItsWayTakesRoom) {
 TEST_F(UploadsOfPages, AFileOnItsWayOutlivesTheUploads) {
   std::unique_ptr<server::Uploads::Incoming> incoming;
   {
-    server::Uploads uploads(folder_ / "u", 1000);
+    server::Uploads uploads(folder_ / "u", {.most_bytes = 1000});
     incoming = uploads.begin("a", UploadSet{"1", "scan"});
     write_bytes(incoming->path(), "x");
   }
@@ -96,7 +164,7 @@ TEST_F(UploadsOfPages, AFileOnItsWayOutlivesTheUploads) {
 }
 
 TEST_F(UploadsOfPages, ASetIsOpenedAsTheOneThingThatItIs) {
-  server::Uploads uploads(folder_ / "u", 100000);
+  server::Uploads uploads(folder_ / "u", {.most_bytes = 100000});
   int sets = 0;
   const auto opened = [&](const std::vector<std::pair<std::string, std::string>>& files) {
     const UploadSet set{std::to_string(++sets), "scan"};
@@ -123,6 +191,15 @@ TEST_F(UploadsOfPages, ASetIsOpenedAsTheOneThingThatItIs) {
     EXPECT_THAT(refusal([&, &sent = files] { opened(sent); }), HasSubstr(expected));
     EXPECT_EQ(uploads.room(), before);  // what cannot be opened is not kept
   }
+}
+
+TEST_F(UploadsOfPages, WhatIsTooLargeForASceneIsNone) {
+  server::Uploads uploads(folder_ / "u", {.most_bytes = 1u << 30});
+  const UploadSet set{"1", "scan"};
+  send(uploads, "a.nrrd", "", set);
+  const fs::path folder =
+      send(uploads, "a.json", R"({"volume":{}})" + std::string(std::size_t{64} << 20, ' '), set);
+  EXPECT_EQ(uploads.opened_as(folder).filename(), "a.nrrd");
 }
 
 class UploadsToServer : public ServerTest {
@@ -220,6 +297,67 @@ TEST_F(UploadsToServer, SetsStayInTheirFolderAndLimits) {
   EXPECT_EQ(put(at, "set=a&folder=b&name=d", std::string(600, 'x')).status, 413);
   // The set is given up, and its room is there again.
   EXPECT_EQ(put(at, "name=c", std::string(1000, 'x')).status, 200);
+}
+
+TEST_F(UploadsToServer, WhatCannotBeOpenedGivesItsRoomBack) {
+  server::ServerOptions small = options();
+  small.most_upload_bytes = 20000;
+  Page page(start(small));
+  const std::string large(15000, 'x');
+  const auto sent = [&](const std::string& query, const std::string& bytes) {
+    const Answer answer = put(*address_, query, bytes);
+    EXPECT_EQ(answer.status, 200) << query << ": " << answer.body;
+    return answer.status == 200 ? json::parse(answer.body)["path"].get<std::string>() : "";
+  };
+  int set = 0;
+  const auto of_set = [&](const std::string& name) {
+    return "set=" + std::to_string(set) + "&folder=scan&name=" + name;
+  };
+  // Each takes more than half of the room; the next one finds it free again.
+  const std::string no_volume = sent("name=a.nrrd", large);
+  EXPECT_NE(open_failure(page, no_volume), "");
+  EXPECT_FALSE(fs::exists(no_volume));
+  ++set;
+  EXPECT_NE(open_failure(page, sent(of_set("a.dcm"), large)), "");
+  ++set;
+  sent(of_set("a.raw"), large);
+  const std::string outside = "NRRD0004\ndata file: " + (folder_ / "secret.nrrd").string() + "\n\n";
+  EXPECT_THAT(open_failure(page, sent(of_set("a.nhdr"), outside)), HasSubstr("outside"));
+  ++set;
+  sent(of_set("a.nrrd"), large);
+  EXPECT_NE(open_failure(page, sent(of_set("a.json"), R"({"volume":{"path":"b.nrrd"}})")), "");
+  EXPECT_NE(open_failure(page, sent("name=a.mhd", "ElementDataFile = a.raw\n" + large)), "");
+  ++set;
+  sent(of_set("a.dcm"), large);
+  EXPECT_EQ(put(*address_, of_set(".b.dcm"), "x").status, 400);
+  EXPECT_EQ(put(*address_, of_set("c.dcm"), "x").status, 400);
+  // What was opened stays, whatever is tried with it.
+  ++set;
+  const fs::path voxels = fs::path(sent(of_set("a.raw"), std::string(63, '\1') + '\2')) / "a.raw";
+  const std::string pair =
+      sent(of_set("a.nhdr"),
+           "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 4 4 4\nencoding: raw\ndata file: a.raw\n\n");
+  page.send({{"type", "open"}, {"path", pair}});
+  page.next("scene");
+  EXPECT_NE(open_failure(page, voxels.string()), "");
+  EXPECT_TRUE(fs::exists(voxels));
+}
+
+TEST_F(UploadsToServer, TwoAtATimeDoNotShareTheirRoom) {
+  server::ServerOptions small = options();
+  small.most_upload_bytes = 1000;
+  const Address& at = start(small);
+  const std::string slow = "PUT /api/upload?name=slow HTTP/1.1\r\nHost: " + at.host() +
+                           "\r\nCookie: " + at.cookie() +
+                           "\r\nExpect: 100-continue\r\nContent-Length: 600\r\n\r\n";
+  boost::asio::io_context io;
+  boost::asio::ip::tcp::socket first(io);
+  first.connect({boost::asio::ip::make_address("127.0.0.1"), at.port});
+  boost::asio::write(first, boost::asio::buffer(slow));
+  std::string answer;
+  boost::asio::read_until(first, boost::asio::dynamic_buffer(answer), "100 Continue\r\n\r\n");
+  EXPECT_EQ(put(at, "name=second", std::string(600, 'x')).status, 413);
+  EXPECT_EQ(put(at, "name=third", std::string(400, 'x')).status, 200);
 }
 
 class SavedScene : public UploadsToServer {
