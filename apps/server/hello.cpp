@@ -19,7 +19,7 @@ using nlohmann::json;
 namespace {
 
 struct KnownSample {
-  const char* file;
+  const char* file;  // relative to the folder of the sample volumes
   const char* name;
   const char* summary;
 };
@@ -28,8 +28,8 @@ constexpr KnownSample kKnownSamples[] = {
     {"mri-head.nii.gz", "Head, MRI", "T1-weighted MRI of a head"},
     {"mri-brain.nii.gz", "Brain, MRI", "T1-weighted MRI of a brain without its skull"},
     {"simulated-pet.nrrd", "Brain, simulated PET", "Activity in the brain of the MRI, on its own grid"},
-    {"aal.nii.gz", "Brain regions, labels", "The AAL atlas: 116 labelled regions"},
-    {"brodmann.nii.gz", "Brodmann areas, labels", "An atlas of the cortex"},
+    {"../examples/brain-regions.json", "Brain regions", "A scene: 116 regions of the AAL atlas, each its material"},
+    {"../examples/brodmann-areas.json", "Brodmann areas", "A scene: areas of the cortex, each its material"},
 };
 
 json materials() {

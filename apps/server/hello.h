@@ -13,7 +13,7 @@ struct Sample {
   std::string name, path, summary;
 };
 
-/// The samples that are in `folder`, and the phantom.
+/// The samples that are in `folder`, scenes in examples/ beside it, and the phantom.
 std::vector<Sample> find_samples(const std::filesystem::path& folder);
 
 /// What a page needs to know before anything else: names to choose from.

@@ -5,6 +5,7 @@
 #include <new>
 
 #include "base/fail.h"
+#include "base/parallel.h"
 #include "scene/open_volume.h"
 #include "voxlume/error.h"
 
@@ -22,11 +23,13 @@ Opening::Opening(asio::io_context& io, LiveOptions options, OpeningListener list
 
 Opening::~Opening() {
   ++newest_;
+  outdated_ = true;
   thread_.join();
 }
 
 void Opening::open(const SceneDescription& scene) {
   const std::uint64_t number = ++newest_;
+  outdated_ = true;
   listener_.status({"reading", file_name(scene.volume.path), "", {}});
   asio::post(thread_, [this, scene, number] { read(scene, number); });
 }
@@ -52,9 +55,10 @@ void Opening::read(const SceneDescription& scene, std::uint64_t number) {
     return [this, number, stage, name](double share) { tell_status(number, {stage, name, "", share}); };
   };
   try {
+    outdated_ = false;
     if (number != newest_) return;
+    const CancelScope scope(outdated_);
     Volume volume = open_volume(scene.volume, progress("reading"));
-    if (number != newest_) return;
     tell_status(number, {"preparing", name, "", {}});
     auto opened = std::make_shared<OpenedVolume>();
     opened->name = name;
@@ -69,6 +73,7 @@ void Opening::read(const SceneDescription& scene, std::uint64_t number) {
       shown_ = number;
       listener_.opened(opened);
     });
+  } catch (const Cancelled&) {
   } catch (const std::bad_alloc&) {
     failed("there is not enough memory; close other programs, or open a smaller volume");
   } catch (const std::exception& error) {

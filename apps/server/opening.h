@@ -42,12 +42,12 @@ struct OpeningListener {
   std::function<void(const RenderProgress&)> progress;
 };
 
-/// Reads volumes and prepares them, one after the other on a thread of its own; what comes while another is
-/// read waits, and of those that wait only the newest is read.
+/// Reads volumes and prepares them on a thread of its own, only the newest that was asked for: what it is at
+/// when another comes ends within a second or two.
 class Opening {
  public:
   Opening(boost::asio::io_context& io, LiveOptions options, OpeningListener listener);
-  /// Waits for what is being read.
+  /// Ends what is being read.
   ~Opening();
 
   /// `scene` names its volume by a path that may be read, and need not be resolved.
@@ -66,6 +66,7 @@ class Opening {
   const LiveOptions options_;
   const OpeningListener listener_;
   std::atomic<std::uint64_t> newest_{0};  ///< of the opens asked for
+  std::atomic<bool> outdated_{false};     ///< what is read is not the newest
   std::uint64_t shown_ = 0;               ///< of the session opened last; of the io_context's thread
   boost::asio::thread_pool thread_{1};
 };

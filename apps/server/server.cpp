@@ -10,6 +10,7 @@
 #include <boost/asio/steady_timer.hpp>
 
 #include "scene/scene_file.h"
+#include "server/hello.h"
 #include "server/http_connection.h"
 #include "server/temporary_folder.h"
 #include "voxlume/error.h"
@@ -90,6 +91,8 @@ Roots allowed_roots(const ServerOptions& options, const std::filesystem::path& u
   Roots roots(options.folder);
   roots.add(uploads);
   if (!options.samples.empty()) roots.add(options.samples);
+  for (const Sample& sample : find_samples(options.samples))
+    if (sample.path != kPhantomPath) roots.add(sample.path);
   if (options.scene)
     for (const std::string& path : scene_paths(*options.scene)) roots.add(path);
   return roots;

@@ -1,5 +1,6 @@
 #include "server/shared_view.h"
 
+#include <algorithm>
 #include <boost/asio/post.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 #include <cmath>
@@ -198,9 +199,9 @@ void SharedView::receive(Viewer& viewer, std::string_view text) {
     message = parse_message(text);
     std::visit([&](const auto& m) { take(viewer, m); }, *message);
   } catch (const Error& error) {
-    viewer.send(shared_text(failure(message, text, error)));
+    viewer.send(shared_text(in_words(failure(message, text, error))));
   } catch (const std::exception& error) {
-    viewer.send(shared_text(failure(message, text, Error(ErrorCode::kInternal, "", error.what()))));
+    viewer.send(shared_text(in_words(failure(message, text, Error(ErrorCode::kInternal, "", error.what())))));
   }
 }
 
@@ -253,11 +254,17 @@ void SharedView::take(Viewer&, const OpenMessage& message) {
     find_uploads(scene, path.parent_path());
     roots_.resolve_paths(scene);
     keep_screen_size(scene);
+    if (is_sample(path)) scene.render.denoise = default_view_scene().render.denoise;
     open(scene, path);
   } catch (const Error&) {
     uploads_.give_up(path);
     throw;
   }
+}
+
+bool SharedView::is_sample(const fs::path& path) const {
+  return std::any_of(settings_.samples.begin(), settings_.samples.end(),
+                     [&](const Sample& sample) { return sample.path == path; });
 }
 
 void SharedView::take(Viewer&, const SplitMessage& message) {
@@ -402,7 +409,7 @@ void SharedView::work(std::function<void()> job) {
 }
 
 void SharedView::set_status(const OpeningStatus& of) {
-  const Json status = status_json(of);
+  const Json status = in_words(status_json(of));
   // Whoever comes later sees what is open, not what could not be opened.
   status_ = of.stage == "failed" && volume_ ? status_json({"ready", volume_->name, "", {}}) : status;
   tell_all(status);
@@ -416,7 +423,13 @@ void SharedView::tell_all(const Json& message, const Viewer* but) {
 }
 
 void SharedView::tell_trouble(const std::string& message) {
-  tell_all({{"type", "trouble"}, {"message", message}});
+  tell_all(in_words({{"type", "trouble"}, {"message", message}}));
+}
+
+Json SharedView::in_words(Json message) const {
+  for (const char* key : {"message", "where"})
+    if (message.contains(key)) message[key] = uploads_.with_names_alone(message[key]);
+  return message;
 }
 
 void SharedView::tell_progress(const RenderProgress& progress) {

@@ -92,6 +92,7 @@ class SharedView {
 
   /// Throws Error while nothing is open.
   Document& open_document();
+  bool is_sample(const std::filesystem::path& path) const;
   /// What a volume file is opened with.
   SceneDescription fresh_scene(const std::string& path) const;
   void opened(std::shared_ptr<OpenedVolume> volume);
@@ -108,6 +109,8 @@ class SharedView {
   void show();
   void tell_all(const Json& message, const Viewer* but = nullptr);
   void tell_trouble(const std::string& message);
+  /// What a message says went wrong, in words for the page.
+  Json in_words(Json message) const;
   void tell_progress(const RenderProgress& progress);
   void tell_scene();
   Json scene_message() const;

@@ -26,7 +26,7 @@ std::uint64_t bytes_of(const fs::path& file) {
 
 void check_name(const std::string& name, const char* where) {
   if (!is_plain_file_name(name))
-    throw Error(ErrorCode::kBadParameter, where, "expected the name of a file, without folders");
+    throw Error(ErrorCode::kBadParameter, where, "expected the name of a file, without folders, of at most 200 bytes; rename it");
 }
 
 }  // namespace
@@ -124,6 +124,16 @@ void Uploads::remove(const fs::path& folder, std::uint64_t bytes) {
 void Uploads::keep(const fs::path& path) {
   if (!contains(path)) return;
   if (const auto found = whole_.find(folder_of(path)); found != whole_.end()) found->second.kept = true;
+}
+
+std::string Uploads::with_names_alone(std::string text) const {
+  const std::string start = folder_.string() + "/";  // then the number of a folder, and a slash
+  for (std::size_t at = text.find(start); at != std::string::npos; at = text.find(start, at)) {
+    const std::size_t end = text.find_first_not_of("0123456789", at + start.size());
+    if (end == std::string::npos || text[end] != '/') break;
+    text.erase(at, end + 1 - at);
+  }
+  return text;
 }
 
 void Uploads::give_up(const fs::path& path) {

@@ -79,6 +79,9 @@ class Uploads {
   /// The newest file or folder of that name, of sets that were opened; empty where there is none.
   std::filesystem::path find(const std::string& name) const;
 
+  /// The text with paths of uploads cut down to their names, as those who sent them know them. Any thread.
+  std::string with_names_alone(std::string text) const;
+
   /// Calls what was uploaded by its name alone in the scene, and returns these names: whoever reads the scene
   /// elsewhere puts these files beside it. Throws Error kBadParameter where two files have the same name.
   std::set<std::string> name_uploads(SceneDescription& scene) const;
@@ -112,9 +115,9 @@ class Uploads {
   std::uint64_t count_ = 0, used_bytes_ = 0;
   std::set<const Incoming*> incoming_;
   const std::shared_ptr<Uploads*> self_ = std::make_shared<Uploads*>(this);
-  std::map<std::string, Set> sets_;                      ///< by id; those that are not complete
-  std::set<std::string> ended_;                          ///< ids of sets that are complete or gone
-  std::map<std::filesystem::path, Whole> whole_;         ///< by the folder of new_folder()
+  std::map<std::string, Set> sets_;               ///< by id; those that are not complete
+  std::set<std::string> ended_;                   ///< ids of sets that are complete or gone
+  std::map<std::filesystem::path, Whole> whole_;  ///< by the folder of new_folder()
   std::map<std::string, std::vector<std::filesystem::path>> named_;  ///< by name, the newest last
 };
 

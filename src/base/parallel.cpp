@@ -37,6 +37,8 @@ void check(const std::atomic<bool>* cancel) {
 CancelScope::CancelScope(const std::atomic<bool>& flag) : outer_(std::exchange(t_cancel, &flag)) {}
 CancelScope::~CancelScope() { t_cancel = outer_; }
 
+void throw_if_cancelled() { check(t_cancel); }
+
 #ifdef __SANITIZE_THREAD__
 // The sanitizer sees nothing of how a thread library that is not built with it hands work over, and takes
 // that for races. Plain threads show it our own.

@@ -22,11 +22,11 @@ class ThreadLimit {
 /// How many threads parallel_for uses now.
 int thread_count();
 
-/// What parallel_for throws when its work is not wanted any more.
+/// What long work throws when it is not wanted any more.
 struct Cancelled {};
 
-/// While it lives, parallel_for called by this thread throws Cancelled soon after `flag` is set; what it was
-/// at is left half done.
+/// While it lives, parallel_for and reading volumes, called by this thread, throw Cancelled soon after `flag`
+/// is set; what they were at is left half done.
 class CancelScope {
  public:
   explicit CancelScope(const std::atomic<bool>& flag);
@@ -37,6 +37,9 @@ class CancelScope {
  private:
   const std::atomic<bool>* outer_;
 };
+
+/// Throws Cancelled where a CancelScope of this thread has its flag set.
+void throw_if_cancelled();
 
 /// Calls body(i) once for each i in [0, count), in any order and on several threads. Exceptions thrown by
 /// `body` reach the caller, as does Cancelled. Work is handed out in runs of `grain` indices.

@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "base/fail.h"
+#include "base/parallel.h"
 #include "base/progress.h"
 #include "volume_io/child_limits.h"
 #include "volume_io/child_watch.h"
@@ -95,14 +96,22 @@ void take_percents(std::string& said, const Progress& progress) {
     if (progress) progress(0.01 * std::atoi(said.c_str()));
 }
 
-/// Reads what the child says until it closes the pipe, then waits for its end.
-ChildOutcome await_child(pid_t child, int result, std::chrono::seconds limit, const Progress& progress) {
+int status_at_end(pid_t child) {
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return status;
+}
+
+/// Takes what the child says until it closes the pipe, or is ended for its time or a deadlock.
+ChildOutcome listen_to_child(pid_t child, int result, std::chrono::seconds limit, const Progress& progress) {
   constexpr int kWatchMilliseconds = 1000;
   ChildOutcome outcome;
   DeadlockWatch watch(child);
   const auto deadline = std::chrono::steady_clock::now() + limit;
   char text[4096];
   for (;;) {
+    throw_if_cancelled();
     pollfd waiting{result, POLLIN, 0};
     const int ready = poll(&waiting, 1, kWatchMilliseconds);
     if (ready < 0 && errno == EINTR) continue;
@@ -119,9 +128,20 @@ ChildOutcome await_child(pid_t child, int result, std::chrono::seconds limit, co
     outcome.line.append(text, static_cast<std::size_t>(count));
     take_percents(outcome.line, progress);
   }
-  while (waitpid(child, &outcome.status, 0) < 0 && errno == EINTR) {
-  }
   return outcome;
+}
+
+/// Reads what the child says and waits for its end; one whose result is not wanted any more is ended.
+ChildOutcome await_child(pid_t child, int result, std::chrono::seconds limit, const Progress& progress) {
+  try {
+    ChildOutcome outcome = listen_to_child(child, result, limit, progress);
+    outcome.status = status_at_end(child);
+    return outcome;
+  } catch (...) {
+    kill(child, SIGKILL);
+    status_at_end(child);
+    throw;
+  }
 }
 
 [[noreturn]] void fail_child(const std::filesystem::path& path, const ChildOutcome& outcome) {

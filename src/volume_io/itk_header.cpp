@@ -68,7 +68,8 @@ void check_pixel(const itk::ImageIOBase& io, const std::filesystem::path& path) 
   }
   if (io.GetNumberOfComponents() != 1) {
     fail(ErrorCode::kUnsupported, path,
-         fmt::format("{} numbers per voxel ({}); expected one; extract one channel first",
+         fmt::format("{} numbers per voxel ({}); expected one; extract one channel first, with 3D Slicer or "
+                     "ImageJ for instance",
                      io.GetNumberOfComponents(), kind));
   }
 }
@@ -83,8 +84,11 @@ void check_dimensions(const itk::ImageIOBase& io, const std::filesystem::path& p
   }
   if (dimensions < 1) fail(ErrorCode::kBadFormat, path, "the header gives no dimensions");
   if (!flat) {
-    fail(ErrorCode::kUnsupported, path,
-         fmt::format("{}-D image {}; expected 3-D; extract one time step first", dimensions, size));
+    fail(
+        ErrorCode::kUnsupported, path,
+        fmt::format(
+            "{}-D image {}; expected 3-D; extract one time step first, with 3D Slicer or ImageJ for instance",
+            dimensions, size));
   }
 }
 

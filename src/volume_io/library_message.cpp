@@ -5,6 +5,11 @@
 namespace voxlume {
 
 std::string library_message(std::string_view what) {
+  // teem names the function that failed and all that called it; the last one knows the reason.
+  if (const std::size_t last = what.rfind("[nrrd] "); last != std::string::npos) {
+    const std::size_t reason = what.find(": ", last);
+    what.remove_prefix(reason == std::string::npos ? last : reason + 2);
+  }
   std::string text = one_line(what);
   // "/path/itkSomeImageIO.cxx:123: " at the start
   const std::size_t source = text.find(".cxx:");

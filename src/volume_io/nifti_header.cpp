@@ -98,8 +98,11 @@ void check(const std::filesystem::path& path, const NiftiHeader& header, std::si
     flat = flat && (a <= 3 || n == 1);
   }
   if (!flat) {
-    fail(ErrorCode::kUnsupported, path,
-         fmt::format("{}-D image {}; expected 3-D; extract one time step first", header.dim[0], size));
+    fail(
+        ErrorCode::kUnsupported, path,
+        fmt::format(
+            "{}-D image {}; expected 3-D; extract one time step first, with 3D Slicer or ImageJ for instance",
+            header.dim[0], size));
   }
   if (!(header.vox_offset >= static_cast<double>(header_bytes) && header.vox_offset < 1e12)) {
     fail(ErrorCode::kBadFormat, path,

@@ -60,8 +60,10 @@ FileFormat format_of_file(const std::filesystem::path& path) {
   if (by_name) return *by_name;
   if (by_content) return *by_content;
   fail(ErrorCode::kUnsupported, path,
-       fmt::format("not a known volume format; expected one of {}, a DICOM folder, or raw voxels with --raw",
-                   known_extensions()));
+       fmt::format(
+           "not a known volume format; expected one of {}, or a DICOM folder; raw voxels need a header "
+           "(.nhdr, .mhd), or --raw on the command line",
+           known_extensions()));
 }
 
 }  // namespace

@@ -103,8 +103,9 @@ TiffPage tiff_page(TIFF* tiff, const std::filesystem::path& path) {
   }
   if (samples != 1) {
     fail(ErrorCode::kUnsupported, path,
-         fmt::format("{} channels per pixel ({}); expected one; extract one channel first", samples,
-                     samples == 3 || samples == 4 ? "RGB" : "vector"));
+         fmt::format("{} channels per pixel ({}); expected one; extract one channel first, with 3D Slicer or "
+                     "ImageJ for instance",
+                     samples, samples == 3 || samples == 4 ? "RGB" : "vector"));
   }
   page.type = pixel_type(path, bits, sample_format);
   return page;

@@ -36,7 +36,8 @@ class TiffReader : public VolumeReader {
     const TiffStackInfo info = tiff_stack_info(first.get());
     if (info.channels > 1 || info.frames > 1) {
       fail(ErrorCode::kUnsupported, files_[0],
-           fmt::format("a stack of {} channels and {} time steps; expected one of each; extract one first",
+           fmt::format("a stack of {} channels and {} time steps; expected one of each; extract one first, "
+                       "with 3D Slicer or ImageJ for instance",
                        info.channels, info.frames));
     }
     warn_about_colours(first.get(), volume);

@@ -56,7 +56,7 @@ class Inflater {
     std::uint64_t done = 0;
     while (done < bytes && !ended_) {
       if (stream_.avail_in == 0 && !refill(file))
-        fail(ErrorCode::kBadFormat, path_, "compressed data is cut short");
+        fail(ErrorCode::kBadFormat, path_, "compressed data is cut short; copy or download the file again");
       const auto room = static_cast<uInt>(std::min<std::uint64_t>(bytes - done, 1u << 30));
       stream_.next_out = to + done;
       stream_.avail_out = room;
@@ -66,7 +66,8 @@ class Inflater {
         next_member(file);
       } else if (status != Z_OK && status != Z_BUF_ERROR) {
         fail(ErrorCode::kBadFormat, path_,
-             fmt::format("compressed data is damaged ({})", stream_.msg ? stream_.msg : "zlib error"));
+             fmt::format("compressed data is damaged ({}); copy or download the file again",
+                         stream_.msg ? stream_.msg : "zlib error"));
       }
     }
     return done;

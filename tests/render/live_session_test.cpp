@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <future>
 
+#include "base/parallel.h"
 #include "grid/phantom.h"
 #include "render/picture.h"
 #include "scene/resolve.h"
@@ -105,6 +107,14 @@ Image rendered(const LiveSession& live, const SceneDescription& scene) {
   session.compile(session.description());
   const PictureSamples samples = render_picture(session.compiled(), "", {});
   return finish_picture(samples.state, session.compiled(), {});
+}
+
+TEST(LiveSession, IsNotMadeOnceItIsNotWantedAnyMore) {
+  std::atomic<bool> outdated{false};
+  const CancelScope scope(outdated);
+  LiveListener listener;
+  listener.preparing = [&](double) { outdated = true; };
+  EXPECT_THROW(LiveSession(small_scene(), ball(), listener), Cancelled);
 }
 
 TEST(LiveSession, EndsWithThePictureOfTheRenderCommand) {

@@ -333,7 +333,8 @@ TEST_F(HttpOfVolume, LabelsOfWideTypesAreTheFilesOwn) {
     page.send(edit(1, "/proxies", json::array({{{"name", "atlas"}, {"path", name}, {"lookup", "nearest"}}})));
     page.next("edited");
     std::vector<int> listed;
-    for (const json& entry : data("/api/labels")["atlas"]) {
+    const json labels = data("/api/labels");
+    for (const json& entry : labels["atlas"]) {
       EXPECT_EQ(entry["value"], std::floor(entry["value"].get<double>()));
       listed.push_back(entry["value"].get<int>());
     }

@@ -39,6 +39,26 @@ TEST_F(Socket, HelloComesFirstAndSaysWhatThereIs) {
   EXPECT_EQ(page.next("viewers")["count"], 1);
 }
 
+TEST_F(Socket, SampleScenesAreOfferedAndOpenDenoised) {
+  namespace fs = std::filesystem;
+  fs::create_directories(folder_ / "program/data");
+  fs::create_directories(folder_ / "program/examples");
+  fs::copy(files_ / "ramp.nrrd", folder_ / "program/data/ramp.nrrd");
+  write_bytes(folder_ / "program/examples/brain-regions.json", R"({"volume":{"path":"../data/ramp.nrrd"}})");
+  write_bytes(folder_ / "program/examples/other.json", R"({"volume":{"path":"../data/ramp.nrrd"}})");
+  server::ServerOptions with_samples = options();
+  with_samples.samples = folder_ / "program/data";
+  Page page(start(with_samples));
+  const json sample = page.next("hello")["samples"][0];
+  EXPECT_EQ(sample["name"], "Brain regions");
+  page.send({{"type", "open"}, {"path", sample["path"]}});
+  EXPECT_EQ(page.next("scene")["scene"]["render"]["denoise"], "decoupled");
+  page.send({{"type", "open"}, {"path", (folder_ / "program/examples/other.json").string()}});
+  EXPECT_THAT(
+      page.next("status", [](const json& m) { return m["stage"] == "failed"; })["message"].get<std::string>(),
+      HasSubstr("outside"));
+}
+
 TEST_F(Socket, EnvironmentsThatAreToldOfCanBeRead) {
   write_bytes(files_ / "sky.exr", "a picture");
   write_bytes(folder_ / "hidden.exr", "a picture");

@@ -133,6 +133,15 @@ TEST_F(UploadsOfPages, WhatIsGivenUpIsGoneUnlessItWasKept) {
   EXPECT_TRUE(fs::exists(first));
 }
 
+TEST_F(UploadsOfPages, TextsCallThemByTheirNamesAlone) {
+  server::Uploads uploads(folder_ / "u", {.most_bytes = 1000});
+  const fs::path one = send(uploads, "a b.nrrd", "x");
+  EXPECT_EQ(uploads.with_names_alone(one.string() + ": is damaged, as " + one.string()),
+            "a b.nrrd: is damaged, as a b.nrrd");
+  for (const std::string other : {std::string("/data/7/a.nrrd is odd"), (folder_ / "u").string() + "/x/a.nrrd"})
+    EXPECT_EQ(uploads.with_names_alone(other), other);
+}
+
 TEST_F(UploadsOfPages, WhatIsReservedTakesRoomBeforeItIsThere) {
   server::Uploads uploads(folder_ / "u", {.most_bytes = 1000});
   auto first = uploads.begin("a");

@@ -1,6 +1,10 @@
 // What readers tell of how far they are.
 #include <fmt/format.h>
+#include <sys/wait.h>
 
+#include <atomic>
+
+#include "base/parallel.h"
 #include "dicom_builder.h"
 #include "test_files.h"
 
@@ -56,6 +60,23 @@ TEST(Progress, OfSeriesCountsFiles) {
     write_volume(make_test_volume(VoxelType::kU8, {7, 5, 1}), folder / fmt::format("tiff/{:02}.tif", i));
   }
   for (const char* name : {"dicom", "tiff"}) EXPECT_GE(shares_of(folder / name).size(), 30u) << name;
+}
+
+TEST(Progress, MayFindThatTheVolumeIsNotWantedAnyMore) {
+  const TemporaryFolder folder;
+  write_volume(noise(), folder / "a.nrrd");
+  std::atomic<bool> outdated{false};
+  const CancelScope scope(outdated);
+  std::vector<double> shares;
+  ReadOptions options;
+  options.progress = [&](double share) {
+    shares.push_back(share);
+    outdated = true;
+  };
+  EXPECT_THROW(read_volume(folder / "a.nrrd", options), Cancelled);
+  ASSERT_FALSE(shares.empty());
+  EXPECT_LT(shares.back(), 1);
+  EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << "the reader has ended";
 }
 
 TEST(Progress, EndsWithAnError) {

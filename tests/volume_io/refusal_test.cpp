@@ -30,8 +30,9 @@ class Refusal : public testing::Test {
 
 TEST_F(Refusal, FourDimensions) {
   const std::string bytes(4 * 3 * 2 * 5, 'x');
-  refuse("a.nrrd", nrrd("uchar", "4 3 2 5", 4) + bytes,
-         "4-D image 4x3x2x5; expected 3-D; extract one time step first");
+  refuse(
+      "a.nrrd", nrrd("uchar", "4 3 2 5", 4) + bytes,
+      "4-D image 4x3x2x5; expected 3-D; extract one time step first, with 3D Slicer or ImageJ for instance");
   refuse(
       "a.mha",
       "ObjectType = Image\nNDims = 4\nDimSize = 4 3 2 5\nElementType = MET_UCHAR\nElementDataFile = LOCAL\n" +
@@ -39,7 +40,24 @@ TEST_F(Refusal, FourDimensions) {
       "4-D image 4x3x2x5");
   NiftiBuilder nifti;
   nifti.dim = {4, 64, 64, 30, 120, 1, 1, 1};
-  refuse("a.nii", nifti.header(), "4-D image 64x64x30x120; expected 3-D; extract one time step first");
+  refuse("a.nii", nifti.header(),
+         "4-D image 64x64x30x120; expected 3-D; extract one time step first, with 3D Slicer or ImageJ for "
+         "instance");
+}
+
+TEST_F(Refusal, SaysTheReasonAlone) {
+  const auto message = [&](const std::string& bytes) {
+    try {
+      read("a.nrrd", bytes);
+    } catch (const Error& error) {
+      return error.message();
+    }
+    return std::string();
+  };
+  EXPECT_EQ(message("no such thing\n"),
+            "the header cannot be read: couldn't parse \"no such thing\" as magic or beginning of any "
+            "recognized format");
+  EXPECT_EQ(message(nrrd("uchar", "-4 3 2", 3)), "the header cannot be read: axis 0 size (-4) below 1");
 }
 
 TEST_F(Refusal, AFourthDimensionOfOneIsFine) {
