@@ -77,7 +77,11 @@ SharedView::SharedView(boost::asio::io_context& io, Settings settings, Roots roo
                 .opened = [this](std::shared_ptr<OpenedVolume> volume) { opened(std::move(volume)); },
                 .frame = [this](const FrameMessage& frame) { take_frame(frame); },
                 .trouble = [this](const std::string& message) { tell_trouble(message); },
-                .progress = [this](const RenderProgress& progress) { tell_progress(progress); }}) {
+                .progress = [this](const RenderProgress& progress) { tell_progress(progress); },
+                .compiling =
+                    [this](double share) {
+                      tell_all({{"type", "compiling"}, {"share", share}});
+                    }}) {
   set_status({"empty", "", "", {}});
 }
 
