@@ -62,8 +62,7 @@ json failure(const std::optional<PageMessage>& message, std::string_view text, c
 SharedView::SharedView(boost::asio::io_context& io, Settings settings, Roots roots, Uploads& uploads)
     : io_(io),
       settings_(std::move(settings)),
-      roots_(std::move(roots)),
-      uploads_(uploads),
+      files_(std::move(roots), uploads),
       still_timer_(io),
       thumbnails_(io, [this](const std::string& preset) { tell_all(preset_drawn(preset)); }),
       exports_(io, settings_.program, settings_.temporary / "exports",
@@ -71,7 +70,7 @@ SharedView::SharedView(boost::asio::io_context& io, Settings settings, Roots roo
       opening_(io, settings_.live,
                {.status =
                     [this](const OpeningStatus& status) {
-                      if (status.stage == "failed") open_failed();
+                      if (status.stage == "failed") files_.failed();
                       set_status(status);
                     },
                 .opened = [this](std::shared_ptr<OpenedVolume> volume) { opened(std::move(volume)); },
@@ -92,41 +91,27 @@ SharedView::~SharedView() {
 }
 
 void SharedView::open(const SceneDescription& scene, const fs::path& from) {
-  opening_paths_ = {scene.volume.path, from};
+  files_.begin({scene.volume.path, from});
   opening_.open(scene);
-}
-
-void SharedView::open_failed() {
-  for (const fs::path& path : opening_paths_) uploads_.give_up(path);
-}
-
-void SharedView::keep_uploads() {
-  for (const std::string& path : scene_paths(document_->scene())) uploads_.keep(path);
 }
 
 void SharedView::opened(std::shared_ptr<OpenedVolume> volume) {
   SceneDescription scene = volume->session->session().description();
   keep_screen_size(scene);
   // What the rules need lives as long as the session, not this object's member.
-  const Document::Rules rules{.resolve = [session = volume->session.get()](
-                                             const SceneDescription& s) { return session->resolved(s); },
-                              .check_paths =
-                                  [this](SceneDescription& s, const SceneDescription& before) {
-                                    const auto trusted = scene_paths(before);
-                                    for_each_path(s, [&](std::string& path) {
-                                      if (!trusted.contains(path)) path = path_to_open(path).string();
-                                    });
-                                    roots_.check_label_files(s);
-                                  }};
+  const Document::Rules rules{
+      .resolve = [session =
+                      volume->session.get()](const SceneDescription& s) { return session->resolved(s); },
+      .check_paths = [this](SceneDescription& s,
+                            const SceneDescription& before) { files_.resolve_edited(s, before); }};
   try {
     Document document(std::move(scene), rules);
     document_.emplace(std::move(document));
   } catch (const Error& error) {
-    open_failed();
+    files_.failed();
     return set_status({"failed", volume->name, error.what(), {}});
   }
-  for (const fs::path& path : opening_paths_) uploads_.keep(path);
-  keep_uploads();
+  files_.opened(document_->scene());
   if (volume_) opening_.retire(std::move(volume_));
   volume_ = std::move(volume);
   *volume_->numbering = {last_frame_, revision_};
@@ -168,7 +153,7 @@ void SharedView::show() {
 void SharedView::join(const std::shared_ptr<Viewer>& viewer) {
   viewers_[viewer.get()] = viewer;
   watch_or_rest();
-  viewer->send(shared_text(hello_message(settings_.samples, settings_.environments, roots_)));
+  viewer->send(shared_text(hello_message(settings_.samples, settings_.environments, files_.roots())));
   viewer->send(shared_text(status_));
   if (document_) viewer->send(shared_text(scene_message()));
   if (!exports_.state().is_null()) viewer->send(shared_text(exports_.state()));
@@ -214,7 +199,7 @@ void SharedView::take(Viewer& from, const EditMessage& message) {
   const std::string gesture =
       message.gesture.empty() ? "" : std::to_string(from.page_number()) + " " + message.gesture;
   const Json sections = document.edit(message.set, gesture);
-  keep_uploads();
+  files_.keep(document_->scene());
   if (!sections.empty()) show();
   if (sections.contains("image"))
     screen_size_ = {document.scene().image.width, document.scene().image.height};
@@ -238,30 +223,22 @@ void SharedView::take(Viewer&, const RedoMessage&) {
 
 void SharedView::take(Viewer&, const LoadMessage& message) {
   SceneDescription scene = parse_scene(text_of(message.scene), "scene");
-  find_uploads(scene, {});
-  roots_.resolve_paths(scene, document_ ? scene_paths(document_->scene()) : std::set<std::string>{});
+  files_.resolve(scene, document_ ? scene_paths(document_->scene()) : std::set<std::string>{});
   keep_screen_size(scene);
   if (!document_ || !(scene.volume == document_->scene().volume)) return open(scene);
   document_->replace(scene);
-  keep_uploads();
+  files_.keep(document_->scene());
   show();
   tell_scene();
 }
 
 void SharedView::take(Viewer&, const OpenMessage& message) {
   if (message.path == kPhantomPath) return open(fresh_scene(std::string(kPhantomPath)));
-  const fs::path path = path_to_open(message.path);
+  const fs::path path = files_.to_open(message.path);
   if (lower_extension(path) != ".json") return open(fresh_scene(path.string()), path);
-  try {
-    SceneDescription scene = read_scene(path);
-    find_uploads(scene, path.parent_path());
-    roots_.resolve_paths(scene);
-    keep_screen_size(scene);
-    open(scene, path);
-  } catch (const Error&) {
-    uploads_.give_up(path);
-    throw;
-  }
+  SceneDescription scene = files_.read(path);
+  keep_screen_size(scene);
+  open(scene, path);
 }
 
 void SharedView::take(Viewer&, const SplitMessage& message) {
@@ -315,33 +292,6 @@ void SharedView::take(Viewer& from, const ShownMessage& message) { from.shown(me
 Document& SharedView::open_document() {
   if (!document_) throw Error(ErrorCode::kBadParameter, "", "nothing is open");
   return *document_;
-}
-
-fs::path SharedView::path_to_open(const std::string& path) {
-  const fs::path file = uploads_.opened_as(roots_.resolve(path));
-  try {
-    return roots_.resolve_to_open(file.string());
-  } catch (const Error&) {
-    uploads_.give_up(file);
-    throw;
-  }
-}
-
-void SharedView::find_uploads(SceneDescription& scene, const fs::path& scene_folder) const {
-  const bool is_file = !scene_folder.empty();
-  for_each_path(scene, [&](std::string& path) {
-    const fs::path given = fs::path(path).lexically_normal();
-    if (is_file ? given.parent_path() != scene_folder : given.has_parent_path()) return;
-    const fs::path place = is_file ? given : roots_.folder() / given;
-    const fs::path uploaded = uploads_.find(given.filename().string());
-    std::error_code failed;
-    const bool there = fs::exists(fs::symlink_status(place, failed));
-    if (there && (is_file || uploaded.empty())) return;
-    if (uploaded.empty())
-      throw Error(ErrorCode::kFileNotFound, given.filename().string(),
-                  "no such file beside the scene; drop it on the page first, then load the scene again");
-    path = uploaded.string();
-  });
 }
 
 SceneDescription SharedView::fresh_scene(const std::string& path) const {
