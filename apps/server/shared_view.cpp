@@ -117,6 +117,7 @@ void SharedView::opened(std::shared_ptr<OpenedVolume> volume) {
   *volume_->numbering = {last_frame_, revision_};
   frame_.reset();
   seek_s_.reset();
+  seeking_ = nullptr;
   thumbnails_.forget();
   watch_or_rest();
   volume_->session->set_split(split_);
@@ -166,6 +167,11 @@ void SharedView::leave(Viewer& viewer) {
   const auto found = viewers_.find(&viewer);
   if (found == viewers_.end()) return;
   viewers_.erase(found);
+  if (seeking_ == &viewer) {  // nobody else would end it
+    seeking_ = nullptr;
+    seek_s_.reset();
+    show();
+  }
   watch_or_rest();
   tell_all({{"type", "viewers"}, {"count", viewers_.size()}});
 }
@@ -247,8 +253,9 @@ void SharedView::take(Viewer&, const SplitMessage& message) {
   tell_all({{"type", "split"}, {"at", or_null(split_)}});
 }
 
-void SharedView::take(Viewer&, const SeekMessage& message) {
+void SharedView::take(Viewer& from, const SeekMessage& message) {
   open_document();
+  seeking_ = message.time_s ? &from : nullptr;
   if (seek_s_ == message.time_s) return;
   seek_s_ = message.time_s;
   show();

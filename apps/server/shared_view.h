@@ -124,6 +124,7 @@ class SharedView {
   Json status_;
   std::optional<std::pair<int, int>> screen_size_;  ///< what a page asked for last
   std::optional<double> split_, seek_s_;
+  const Viewer* seeking_ = nullptr;  ///< whose page asked for seek_s_ last
   int temporary_files_ = 0;
   std::vector<std::function<void(std::shared_ptr<const LiveFrame>)>> awaiting_still_;
   boost::asio::steady_timer still_timer_;

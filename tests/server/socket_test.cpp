@@ -500,6 +500,21 @@ TEST_F(Socket, SeekingShowsATimeAndChangesNothing) {
   EXPECT_EQ(Page(*address_).next("scene")["scene"]["camera"], before["scene"]["camera"]);
 }
 
+TEST_F(Socket, APageThatGoesEndsItsSeeking) {
+  Page page(start_with_ramp());
+  page.send(edit(1, "/animation", {{"turntable", {{"seconds", 4}}}}));
+  const json still =
+      page.next("frame", [](const json& m) { return m["done"] == true && m["revision"] == 2; });
+  {
+    Page other(*address_);
+    other.send({{"type", "seek"}, {"time_s", 2}});
+    page.next("frame", [](const json& m) { return m["revision"] == 3; });
+    other.cut();
+  }
+  const json back = page.next("frame", [](const json& m) { return m["revision"] == 4; });
+  EXPECT_EQ(back["camera"], still["camera"]);
+}
+
 TEST_F(Socket, ProbesFindPlaceValueAndLabel) {
   Page page(start_with_ramp());
   page.send(edit(1, "/labels", {{"path", "labels.nrrd"}}));
