@@ -103,6 +103,7 @@ LiveListener Opening::session_listener(std::uint64_t number, std::shared_ptr<Fra
   out.progress = [this, to_io](const RenderProgress& progress) {
     to_io([this, progress] { listener_.progress(progress); });
   };
+  out.compiling = [this, to_io](double share) { to_io([this, share] { listener_.compiling(share); }); };
   return out;
 }
 

@@ -40,6 +40,7 @@ struct OpeningListener {
   std::function<void(const FrameMessage&)> frame;
   std::function<void(const std::string& message)> trouble;
   std::function<void(const RenderProgress&)> progress;
+  Progress compiling;  ///< as of LiveListener
 };
 
 /// Reads volumes and prepares them on a thread of its own, only the newest that was asked for: what it is at

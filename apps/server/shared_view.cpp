@@ -63,8 +63,7 @@ json failure(const std::optional<PageMessage>& message, std::string_view text, c
 SharedView::SharedView(boost::asio::io_context& io, Settings settings, Roots roots, Uploads& uploads)
     : io_(io),
       settings_(std::move(settings)),
-      roots_(std::move(roots)),
-      uploads_(uploads),
+      files_(std::move(roots), uploads),
       still_timer_(io),
       thumbnails_(io, [this](const std::string& preset) { tell_all(preset_drawn(preset)); }),
       exports_(io, settings_.program, settings_.temporary / "exports",
@@ -72,13 +71,17 @@ SharedView::SharedView(boost::asio::io_context& io, Settings settings, Roots roo
       opening_(io, settings_.live,
                {.status =
                     [this](const OpeningStatus& status) {
-                      if (status.stage == "failed") open_failed();
+                      if (status.stage == "failed") files_.failed();
                       set_status(status);
                     },
                 .opened = [this](std::shared_ptr<OpenedVolume> volume) { opened(std::move(volume)); },
                 .frame = [this](const FrameMessage& frame) { take_frame(frame); },
                 .trouble = [this](const std::string& message) { tell_trouble(message); },
-                .progress = [this](const RenderProgress& progress) { tell_progress(progress); }}) {
+                .progress = [this](const RenderProgress& progress) { tell_progress(progress); },
+                .compiling =
+                    [this](double share) {
+                      tell_all({{"type", "compiling"}, {"share", share}});
+                    }}) {
   set_status({"empty", "", "", {}});
 }
 
@@ -89,46 +92,33 @@ SharedView::~SharedView() {
 }
 
 void SharedView::open(const SceneDescription& scene, const fs::path& from) {
-  opening_paths_ = {scene.volume.path, from};
+  files_.begin({scene.volume.path, from});
   opening_.open(scene);
-}
-
-void SharedView::open_failed() {
-  for (const fs::path& path : opening_paths_) uploads_.give_up(path);
-}
-
-void SharedView::keep_uploads() {
-  for (const std::string& path : scene_paths(document_->scene())) uploads_.keep(path);
 }
 
 void SharedView::opened(std::shared_ptr<OpenedVolume> volume) {
   SceneDescription scene = volume->session->session().description();
   keep_screen_size(scene);
   // What the rules need lives as long as the session, not this object's member.
-  const Document::Rules rules{.resolve = [session = volume->session.get()](
-                                             const SceneDescription& s) { return session->resolved(s); },
-                              .check_paths =
-                                  [this](SceneDescription& s, const SceneDescription& before) {
-                                    const auto trusted = scene_paths(before);
-                                    for_each_path(s, [&](std::string& path) {
-                                      if (!trusted.contains(path)) path = path_to_open(path).string();
-                                    });
-                                    roots_.check_label_files(s);
-                                  }};
+  const Document::Rules rules{
+      .resolve = [session =
+                      volume->session.get()](const SceneDescription& s) { return session->resolved(s); },
+      .check_paths = [this](SceneDescription& s,
+                            const SceneDescription& before) { files_.resolve_edited(s, before); }};
   try {
     Document document(std::move(scene), rules);
     document_.emplace(std::move(document));
   } catch (const Error& error) {
-    open_failed();
+    files_.failed();
     return set_status({"failed", volume->name, error.what(), {}});
   }
-  for (const fs::path& path : opening_paths_) uploads_.keep(path);
-  keep_uploads();
+  files_.opened(document_->scene());
   if (volume_) opening_.retire(std::move(volume_));
   volume_ = std::move(volume);
   *volume_->numbering = {last_frame_, revision_};
   frame_.reset();
   seek_s_.reset();
+  seeking_ = nullptr;
   thumbnails_.forget();
   watch_or_rest();
   volume_->session->set_split(split_);
@@ -165,7 +155,7 @@ void SharedView::show() {
 void SharedView::join(const std::shared_ptr<Viewer>& viewer) {
   viewers_[viewer.get()] = viewer;
   watch_or_rest();
-  viewer->send(shared_text(hello_message(settings_.samples, settings_.environments, roots_)));
+  viewer->send(shared_text(hello_message(settings_.samples, settings_.environments, files_.roots())));
   viewer->send(shared_text(status_));
   if (document_) viewer->send(shared_text(scene_message()));
   if (!exports_.state().is_null()) viewer->send(shared_text(exports_.state()));
@@ -178,6 +168,11 @@ void SharedView::leave(Viewer& viewer) {
   const auto found = viewers_.find(&viewer);
   if (found == viewers_.end()) return;
   viewers_.erase(found);
+  if (seeking_ == &viewer) {  // nobody else would end it
+    seeking_ = nullptr;
+    seek_s_.reset();
+    show();
+  }
   watch_or_rest();
   tell_all({{"type", "viewers"}, {"count", viewers_.size()}});
 }
@@ -211,7 +206,7 @@ void SharedView::take(Viewer& from, const EditMessage& message) {
   const std::string gesture =
       message.gesture.empty() ? "" : std::to_string(from.page_number()) + " " + message.gesture;
   const Json sections = document.edit(message.set, gesture);
-  keep_uploads();
+  files_.keep(document_->scene());
   if (!sections.empty()) show();
   if (sections.contains("image"))
     screen_size_ = {document.scene().image.width, document.scene().image.height};
@@ -235,31 +230,23 @@ void SharedView::take(Viewer&, const RedoMessage&) {
 
 void SharedView::take(Viewer&, const LoadMessage& message) {
   SceneDescription scene = parse_scene(text_of(message.scene), "scene");
-  find_uploads(scene, {});
-  roots_.resolve_paths(scene, document_ ? scene_paths(document_->scene()) : std::set<std::string>{});
+  files_.resolve(scene, document_ ? scene_paths(document_->scene()) : std::set<std::string>{});
   keep_screen_size(scene);
   if (!document_ || !(scene.volume == document_->scene().volume)) return open(scene);
   document_->replace(scene);
-  keep_uploads();
+  files_.keep(document_->scene());
   show();
   tell_scene();
 }
 
 void SharedView::take(Viewer&, const OpenMessage& message) {
   if (message.path == kPhantomPath) return open(fresh_scene(std::string(kPhantomPath)));
-  const fs::path path = path_to_open(message.path);
+  const fs::path path = files_.to_open(message.path);
   if (lower_extension(path) != ".json") return open(fresh_scene(path.string()), path);
-  try {
-    SceneDescription scene = read_scene(path);
-    find_uploads(scene, path.parent_path());
-    roots_.resolve_paths(scene);
-    keep_screen_size(scene);
-    if (is_sample(path)) scene.render.denoise = default_view_scene().render.denoise;
-    open(scene, path);
-  } catch (const Error&) {
-    uploads_.give_up(path);
-    throw;
-  }
+  SceneDescription scene = files_.read(path);
+  keep_screen_size(scene);
+  if (is_sample(path)) scene.render.denoise = default_view_scene().render.denoise;
+  open(scene, path);
 }
 
 bool SharedView::is_sample(const fs::path& path) const {
@@ -273,8 +260,9 @@ void SharedView::take(Viewer&, const SplitMessage& message) {
   tell_all({{"type", "split"}, {"at", or_null(split_)}});
 }
 
-void SharedView::take(Viewer&, const SeekMessage& message) {
+void SharedView::take(Viewer& from, const SeekMessage& message) {
   open_document();
+  seeking_ = message.time_s ? &from : nullptr;
   if (seek_s_ == message.time_s) return;
   seek_s_ = message.time_s;
   show();
@@ -318,33 +306,6 @@ void SharedView::take(Viewer& from, const ShownMessage& message) { from.shown(me
 Document& SharedView::open_document() {
   if (!document_) throw Error(ErrorCode::kBadParameter, "", "nothing is open");
   return *document_;
-}
-
-fs::path SharedView::path_to_open(const std::string& path) {
-  const fs::path file = uploads_.opened_as(roots_.resolve(path));
-  try {
-    return roots_.resolve_to_open(file.string());
-  } catch (const Error&) {
-    uploads_.give_up(file);
-    throw;
-  }
-}
-
-void SharedView::find_uploads(SceneDescription& scene, const fs::path& scene_folder) const {
-  const bool is_file = !scene_folder.empty();
-  for_each_path(scene, [&](std::string& path) {
-    const fs::path given = fs::path(path).lexically_normal();
-    if (is_file ? given.parent_path() != scene_folder : given.has_parent_path()) return;
-    const fs::path place = is_file ? given : roots_.folder() / given;
-    const fs::path uploaded = uploads_.find(given.filename().string());
-    std::error_code failed;
-    const bool there = fs::exists(fs::symlink_status(place, failed));
-    if (there && (is_file || uploaded.empty())) return;
-    if (uploaded.empty())
-      throw Error(ErrorCode::kFileNotFound, given.filename().string(),
-                  "no such file beside the scene; drop it on the page first, then load the scene again");
-    path = uploaded.string();
-  });
 }
 
 SceneDescription SharedView::fresh_scene(const std::string& path) const {
@@ -428,7 +389,7 @@ void SharedView::tell_trouble(const std::string& message) {
 
 Json SharedView::in_words(Json message) const {
   for (const char* key : {"message", "where"})
-    if (message.contains(key)) message[key] = uploads_.with_names_alone(message[key]);
+    if (message.contains(key)) message[key] = files_.uploads().with_names_alone(message[key]);
   return message;
 }
 

@@ -16,9 +16,8 @@
 #include "server/hello.h"
 #include "server/messages.h"
 #include "server/opening.h"
-#include "server/roots.h"
+#include "server/scene_files.h"
 #include "server/thumbnails.h"
-#include "server/uploads.h"
 
 namespace voxlume::server {
 
@@ -40,8 +39,8 @@ class SharedView {
   SharedView(boost::asio::io_context& io, Settings settings, Roots roots, Uploads& uploads);
   ~SharedView();
 
-  const Roots& roots() const { return roots_; }
-  const Uploads& uploads() const { return uploads_; }
+  const Roots& roots() const { return files_.roots(); }
+  const Uploads& uploads() const { return files_.uploads(); }
 
   /// Opens a scene and its volume, whose paths may be read, instead of what is open. `from` is the path that
   /// was asked for, where one was.
@@ -102,10 +101,6 @@ class SharedView {
   bool is_current_still(const FrameMessage& frame) const;
   void hand_out_stills(const std::shared_ptr<const LiveFrame>& frame);
   void set_status(const OpeningStatus& of);
-  /// Uploads that could not be opened are given up.
-  void open_failed();
-  /// The scene's uploads stay.
-  void keep_uploads();
   void show();
   void tell_all(const Json& message, const Viewer* but = nullptr);
   void tell_trouble(const std::string& message);
@@ -116,22 +111,13 @@ class SharedView {
   Json scene_message() const;
   Json edited_message(const Json& sections) const;
   void keep_screen_size(SceneDescription& scene) const;
-  /// What a page means by a path that it may read. Throws Error, those of Roots::resolve_to_open() and
-  /// Uploads::opened_as().
-  std::filesystem::path path_to_open(const std::string& path);
-  /// Completes paths that are the names of uploads. Of a scene file in `scene_folder` what lies beside it
-  /// comes first, of one that a page has (empty) the uploads. Throws Error kFileNotFound where there is
-  /// neither.
-  void find_uploads(SceneDescription& scene, const std::filesystem::path& scene_folder) const;
 
   boost::asio::io_context& io_;
   const Settings settings_;
-  Roots roots_;
-  Uploads& uploads_;
+  SceneFiles files_;
   std::map<const Viewer*, std::shared_ptr<Viewer>> viewers_;
   std::uint64_t page_numbers_ = 0;
 
-  std::vector<std::filesystem::path> opening_paths_;  ///< what the newest open reads
   std::shared_ptr<OpenedVolume> volume_;
   std::optional<Document> document_;
   std::uint64_t revision_ = 0;  ///< what was asked for last, as viewers know it
@@ -141,6 +127,7 @@ class SharedView {
   Json status_;
   std::optional<std::pair<int, int>> screen_size_;  ///< what a page asked for last
   std::optional<double> split_, seek_s_;
+  const Viewer* seeking_ = nullptr;  ///< whose page asked for seek_s_ last
   int temporary_files_ = 0;
   std::vector<std::function<void(std::shared_ptr<const LiveFrame>)>> awaiting_still_;
   boost::asio::steady_timer still_timer_;

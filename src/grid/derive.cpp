@@ -10,12 +10,14 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <mutex>
 #include <vector>
 
 #include "base/fail.h"
 #include "base/parallel.h"
+#include "base/progress_parts.h"
 #include "grid/grid_view.h"
 #include "volume_io/memory_limit.h"
 
@@ -69,14 +71,27 @@ void each_slice(const Volume& volume, Visit&& visit) {
   parallel_for(volume.size[2], 1, [&](std::int64_t k) { visit(k * count, count); });
 }
 
+/// Tells of a filter's own progress. What that throws does not pass through the library, but ends the work
+/// after it.
 template <class Filter>
-typename Filter::OutputImageType::Pointer run(Filter& filter) {
+typename Filter::OutputImageType::Pointer run(Filter& filter, const Progress& progress) {
+  std::exception_ptr thrown;
+  if (progress)
+    filter.AddObserver(itk::ProgressEvent(), [&](const itk::EventObject&) {
+      try {
+        if (!thrown) progress(filter.GetProgress());
+      } catch (...) {
+        thrown = std::current_exception();
+      }
+    });
   try {
     filter.SetNumberOfWorkUnits(static_cast<itk::ThreadIdType>(thread_count()));
     filter.Update();
   } catch (const itk::ExceptionObject& error) {
     fail(ErrorCode::kInternal, "", error.GetDescription());
   }
+  filter.RemoveAllObservers();
+  if (thrown) std::rethrow_exception(thrown);
   typename Filter::OutputImageType::Pointer image = filter.GetOutput();
   image->DisconnectPipeline();
   return image;
@@ -129,18 +144,20 @@ FloatImage::Pointer finite_image(const Volume& volume) {
 
 /// Deriche's recursion, whose cost does not grow with sigma; its impulse response is off for narrow kernels,
 /// and it needs four voxels.
-FloatImage::Pointer smoothed_widely(FloatImage* image, unsigned axis, double sigma_mm) {
+FloatImage::Pointer smoothed_widely(FloatImage* image, unsigned axis, double sigma_mm,
+                                    const Progress& progress) {
   auto filter = itk::RecursiveGaussianImageFilter<FloatImage, FloatImage>::New();
   filter->SetInput(image);
   filter->SetDirection(axis);
   filter->SetZeroOrder();
   filter->SetSigma(sigma_mm);
   filter->InPlaceOn();
-  return run(*filter);
+  return run(*filter, progress);
 }
 
 /// Lindeberg's discrete Gaussian, whose variance is exact however narrow it is.
-FloatImage::Pointer smoothed_narrowly(FloatImage* image, unsigned axis, double sigma_voxels) {
+FloatImage::Pointer smoothed_narrowly(FloatImage* image, unsigned axis, double sigma_voxels,
+                                      const Progress& progress) {
   itk::GaussianOperator<float, 3> kernel;
   kernel.SetDirection(axis);
   kernel.SetVariance(sigma_voxels * sigma_voxels);
@@ -150,7 +167,7 @@ FloatImage::Pointer smoothed_narrowly(FloatImage* image, unsigned axis, double s
   auto filter = itk::NeighborhoodOperatorImageFilter<FloatImage, FloatImage, float>::New();
   filter->SetInput(image);
   filter->SetOperator(kernel);
-  return run(*filter);
+  return run(*filter, progress);
 }
 
 /// 1 for voxels of the labels `inside`, else 0; and how many there are.
@@ -184,14 +201,14 @@ MaskImage::Pointer find_mask(const Volume& labels, std::span<const float> inside
 }
 
 /// Distance of voxels whose mask is `side` from the nearest voxel centre whose mask is not [mm].
-FloatImage::Pointer distance_image(MaskImage* mask, std::uint8_t side) {
+FloatImage::Pointer distance_image(MaskImage* mask, std::uint8_t side, const Progress& progress) {
   auto filter = itk::SignedMaurerDistanceMapImageFilter<MaskImage, FloatImage>::New();
   filter->SetInput(mask);
   filter->SetBackgroundValue(side);
   filter->SetInsideIsPositive(false);
   filter->SetSquaredDistance(false);
   filter->SetUseImageSpacing(true);
-  return run(*filter);
+  return run(*filter, progress);
 }
 
 /// Moves the boundary from the nearest voxel centre of the other side to where that voxel begins: half a
@@ -220,24 +237,27 @@ void place_boundary(const Volume& volume, const float* distance, float* out) {
 
 }  // namespace
 
-Volume gradient_magnitude(const Volume& volume) {
+Volume gradient_magnitude(const Volume& volume, const Progress& progress) {
   check_working_memory(volume, sizeof(float), "gradient magnitude");
   const GridView grid = make_grid_view(volume);
   auto magnitude = std::make_shared<std::vector<float>>(volume.voxel_count());
   Vec3f half_per_mm;
   for (int a = 0; a < 3; ++a) half_per_mm[a] = static_cast<float>(0.5 / volume.spacing_mm[a]);
+  const std::int64_t rows = std::int64_t{grid.size[1]} * grid.size[2];
+  ProgressCounter rows_done(rows, progress);
   with_voxels(grid.type, grid.voxels, [&](const auto* voxels) {
-    parallel_for(std::int64_t{grid.size[1]} * grid.size[2], 16, [&](std::int64_t row) {
+    parallel_for(rows, 16, [&](std::int64_t row) {
       const std::int64_t j = row % grid.size[1], k = row / grid.size[1], first = row * grid.size[0];
       gradient_row(voxels + first, grid.size[0], j + 1 < grid.size[1] ? grid.stride_j : 0,
                    j > 0 ? grid.stride_j : 0, k + 1 < grid.size[2] ? grid.stride_k : 0,
                    k > 0 ? grid.stride_k : 0, half_per_mm, magnitude->data() + first);
+      rows_done.add();
     });
   });
   return placed_as(volume, {magnitude, magnitude->data()});
 }
 
-Volume smoothed(const Volume& volume, double sigma_mm) {
+Volume smoothed(const Volume& volume, double sigma_mm, const Progress& progress) {
   constexpr double kWide_voxels = 3;
   if (!(sigma_mm >= 0 && std::isfinite(sigma_mm)))
     fail(ErrorCode::kBadParameter, "smoothed volume",
@@ -247,15 +267,16 @@ Volume smoothed(const Volume& volume, double sigma_mm) {
   for (unsigned a = 0; a < 3; ++a) {
     const double sigma_voxels = sigma_mm / volume.spacing_mm[a];
     if (volume.size[a] == 1 || sigma_voxels == 0) continue;
+    const Progress of_axis = part_of(progress, static_cast<int>(a), 3);
     if (sigma_voxels >= kWide_voxels && volume.size[a] >= 4)
-      image = smoothed_widely(image, a, sigma_mm);
+      image = smoothed_widely(image, a, sigma_mm, of_axis);
     else
-      image = smoothed_narrowly(image, a, std::min(sigma_voxels, kWide_voxels));
+      image = smoothed_narrowly(image, a, std::min(sigma_voxels, kWide_voxels), of_axis);
   }
   return placed_as(volume, image);
 }
 
-Volume signed_distance(const Volume& labels, std::span<const float> inside) {
+Volume signed_distance(const Volume& labels, std::span<const float> inside, const Progress& progress) {
   // The mask; two distances, one of them being computed from an image of as much again with lists of its
   // runs.
   check_working_memory(labels, 20, "signed distance");
@@ -267,7 +288,8 @@ Volume signed_distance(const Volume& labels, std::span<const float> inside) {
     image->FillBuffer(none ? -kNoBoundary_mm : kNoBoundary_mm);
     return placed_as(labels, image);
   }
-  const FloatImage::Pointer to_outside = distance_image(mask, 1), to_inside = distance_image(mask, 0);
+  const FloatImage::Pointer to_outside = distance_image(mask, 1, part_of(progress, 0, 2)),
+                            to_inside = distance_image(mask, 0, part_of(progress, 1, 2));
   float* distance = to_outside->GetBufferPointer();
   const float* negative = to_inside->GetBufferPointer();
   const std::uint8_t* is_inside = mask->GetBufferPointer();

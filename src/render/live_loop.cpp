@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "base/progress_parts.h"
 #include "integrator/path_tracer.h"
 #include "render/film_image.h"
 #include "render/fingerprint.h"
@@ -140,13 +141,13 @@ template <class Work>
 void LiveSession::Loop::attempt(Work&& work) {
   try {
     work();
+  } catch (const Cancelled&) {  // the session ends
   } catch (const std::exception& error) {
     failed_ = true;
     still_.reset();
     if (live_.listener_.trouble) live_.listener_.trouble(revision_, error.what());
   }
 }
-
 
 RenderStatus LiveSession::Loop::trace(RenderState& state, const StopRule& stop,
                                       const std::atomic<bool>* cancel, bool tells) const {
@@ -190,7 +191,7 @@ void LiveSession::Loop::move() {
   if (scene.visibility) scene.visibility->ray_passes = std::min(scene.visibility->ray_passes, kMovingRayPasses);
   spent_ = {};
   still_compiled_ = false;
-  spent_.compile_s = seconds_of([&] { live_.session_.compile(std::move(scene)); });
+  spent_.compile_s = seconds_of([&] { compile(std::move(scene), false); });
   prepare(moving_, size.width, size.height, kLayers);
   StopRule stop;
   stop.spp = size.spp;
@@ -203,11 +204,18 @@ void LiveSession::Loop::move() {
 
 void LiveSession::Loop::compile_still() {
   if (still_compiled_) return;
-  const auto give_way = [this](double) {
-    if (live_.cancel_) throw Cancelled();
-  };
-  spent_.compile_s += seconds_of([&] { live_.session_.compile(*scene_, give_way); });
+  spent_.compile_s += seconds_of([&] { compile(*scene_, true); });
   still_compiled_ = true;
+}
+
+/// Where it gives way, and when the session ends, it throws Cancelled.
+void LiveSession::Loop::compile(SceneDescription scene, bool gives_way) {
+  const CancelScope scope(live_.ending_);
+  LongWork work(live_.listener_.compiling, live_.options_.patience_s);
+  live_.session_.compile(std::move(scene), [&](double share) {
+    if (gives_way && live_.cancel_) throw Cancelled();
+    work.is_done(share);
+  });
 }
 
 StopRule LiveSession::Loop::still_stop() const {

@@ -45,6 +45,7 @@ class LiveSession::Loop {
   void draw(Aside aside);
   void give_up_asides();
 
+  void compile(SceneDescription scene, bool gives_way);
   void compile_still();
   StopRule still_stop() const;
   bool still_done() const;

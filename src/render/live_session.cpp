@@ -18,7 +18,7 @@ LiveSession::~LiveSession() {
   {
     const std::lock_guard lock(mutex_);
     wishes_.ending = true;
-    cancel_ = true;
+    cancel_ = ending_ = true;
   }
   wake_.notify_all();
   thread_.join();

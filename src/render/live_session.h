@@ -53,12 +53,16 @@ struct LiveListener {
   std::function<void(const RenderProgress&)> progress;
   /// How much of the volume the session has looked over, while it is made; by several threads in turn.
   Progress preparing;
+  /// How much of compiling a scene is done, where it takes longer than LiveOptions::patience_s: what is
+  /// derived from the volume, and lists of what is important. 1 at its end, also where it was given up.
+  Progress compiling;
 };
 
 struct LiveOptions {
   int threads = 0;                      ///< 0: all the machine has
   double frame_budget_s = 1.0 / 30;     ///< of a frame while the view moves
   double rest_s = 0.25;                 ///< a view without edits for so long is still
+  double patience_s = 1;                ///< what takes longer is told of
 };
 
 /// A volume on screen: takes edits at any time from any thread and answers with pictures.
@@ -124,6 +128,7 @@ class LiveSession {
   std::condition_variable wake_;
   Wishes wishes_;
   std::atomic<bool> cancel_{false};  ///< the pass at work is out of date
+  std::atomic<bool> ending_{false};  ///< and all else
   std::thread thread_;
 };
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <tuple>
 
+#include "base/progress_parts.h"
 #include "camera/camera.h"
 #include "grid/grid_view.h"
 #include "image_io/image_io.h"
@@ -128,8 +129,11 @@ void CompiledScene::compile(SceneDescription description, bool everything, const
   const BoundingSphere visible = visible_sphere(moved_to_origin(volume_, origin_mm_), local.clip);
   const SceneSphere sphere{Vec3f(Vec3d(visible.center_mm[0], visible.center_mm[1], visible.center_mm[2])),
                            static_cast<float>(visible.radius_mm)};
+  const bool same_proxies = !everything && description.proxies == description_.proxies;
+  const bool has_lists = local.visibility && !local.visibility->important.empty();
+  const int long_parts = has_lists && !same_proxies && !description.proxies.empty() ? 2 : 1;
   // What can fail comes first; from put_medium on, nothing does but for want of memory.
-  Parts parts = compile_parts(description, everything);
+  Parts parts = compile_parts(description, everything, part_of(progress, 0, long_parts));
   std::optional<ImportanceField> importance =
       compile_importance(local, (parts.rule_volumes ? *parts.rule_volumes : *rule_volumes_).volumes(),
                          !everything && same_importance(description, description_));
@@ -144,11 +148,12 @@ void CompiledScene::compile(SceneDescription description, bool everything, const
   put_integrator(local, sphere, !everything && same_light(description, description_));
   const bool same_lists = !everything && same_pixel_lists(description, description_);
   description_ = std::move(description);
-  put_visibility(std::move(importance), local, same_lists, progress);  // last: it can be ended half way
+  // Last: it can be ended half way.
+  put_visibility(std::move(importance), local, same_lists, part_of(progress, long_parts - 1, long_parts));
 }
 
-CompiledScene::Parts CompiledScene::compile_parts(const SceneDescription& description,
-                                                  bool everything) const {
+CompiledScene::Parts CompiledScene::compile_parts(const SceneDescription& description, bool everything,
+                                                  const Progress& progress) const {
   const RenderDescription& render = description.render;
   simd_target(render.simd);
   check_trackers(description);
@@ -163,7 +168,7 @@ CompiledScene::Parts CompiledScene::compile_parts(const SceneDescription& descri
   const AcceleratorChoice accelerator = accelerator_choice(description, grid);
   if (everything || accelerator_fields(render) != accelerator_fields(description_.render))
     parts.accelerator.emplace(grid, accelerator);
-  compile_rules(description, everything, parts);
+  compile_rules(description, everything, parts, progress);
   const auto& labels = description.labels;
   if (labels && (everything || !description_.labels || labels->path != description_.labels->path ||
                  labels->names != description_.labels->names))
@@ -171,13 +176,15 @@ CompiledScene::Parts CompiledScene::compile_parts(const SceneDescription& descri
   return parts;
 }
 
-void CompiledScene::compile_rules(const SceneDescription& description, bool everything, Parts& parts) const {
+void CompiledScene::compile_rules(const SceneDescription& description, bool everything, Parts& parts,
+                                  const Progress& progress) const {
   const bool new_volumes = everything || !(description.proxies == description_.proxies);
   const bool by_opacity = description.render.integrator == Integrator::kAr2t;
   const bool new_materials = everything || !(description.materials == description_.materials) ||
                              !(description.material == description_.material) ||
                              by_opacity != (description_.render.integrator == Integrator::kAr2t);
-  if (new_volumes) parts.rule_volumes.emplace(volume_, statistics_, description.proxies, origin_mm_);
+  if (new_volumes)
+    parts.rule_volumes.emplace(volume_, statistics_, description.proxies, origin_mm_, progress);
   if (!new_volumes && !new_materials && description.transfer == description_.transfer) return;
   const RuleVolumes& volumes = parts.rule_volumes ? *parts.rule_volumes : *rule_volumes_;
   const auto compile = [&](const SceneDescription& scene) {

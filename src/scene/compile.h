@@ -31,7 +31,8 @@ class CompiledScene {
  public:
   /// `description` is resolved (scene/resolve.h); reads its environment picture and label volume.
   /// Throws Error with the scene path or file of what is wrong; kUnsupported for a choice that is not built.
-  /// `progress`, which may be empty, hears of the lists of what is important, and ends them by throwing.
+  /// `progress`, which may be empty, hears of what takes long: proxies, and the lists of what is important;
+  /// it ends them by throwing.
   CompiledScene(SceneDescription description, Volume volume, const VolumeStatistics& statistics,
                 const ListProgress& progress = {});
   CompiledScene(const CompiledScene&) = delete;
@@ -39,11 +40,11 @@ class CompiledScene {
 
   /// Compiles another description of the same volume, and of it only what differs: a camera, lights or a clip
   /// box take microseconds, a transfer function the majorants that it changes; value ranges are built again
-  /// for another accelerator only, and the environment's picture is read again where the environment changes and
-  /// its path or file time does. `description` is resolved; its volume counts as the one at hand. Nothing may be
-  /// tracing, and copies of view() are out of date afterwards. Throws as the constructor does; the scene is then
-  /// what it was, but for warnings(). Where `progress` has thrown, the scene is the new one without its lists: it
-  /// must not be traced before it is updated again, to any scene.
+  /// for another accelerator only, and the environment's picture is read again where the environment changes
+  /// and its path or file time does. `description` is resolved; its volume counts as the one at hand. Nothing
+  /// may be tracing, and copies of view() are out of date afterwards. Throws as the constructor does; the
+  /// scene is then what it was, but for warnings(). Where `progress` has thrown, the scene may be the new one
+  /// without its lists: it must not be traced before it is updated again, to any scene.
   void update(SceneDescription description, const ListProgress& progress = {});
 
   const SceneView& view() const { return view_; }
@@ -65,9 +66,10 @@ class CompiledScene {
   struct Parts;
 
   void compile(SceneDescription description, bool everything, const ListProgress& progress);
-  void compile_rules(const SceneDescription& description, bool everything, Parts& parts) const;
+  void compile_rules(const SceneDescription& description, bool everything, Parts& parts,
+                     const Progress& progress) const;
   float max_mu_t() const;
-  Parts compile_parts(const SceneDescription& description, bool everything) const;
+  Parts compile_parts(const SceneDescription& description, bool everything, const Progress& progress) const;
   void compile_lights(const SceneDescription& local, bool everything, const CameraView& camera,
                       const SceneSphere& sphere);
   void put_medium(Parts& parts, const SceneDescription& local);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "base/progress_parts.h"
 #include "grid/derive.h"
 #include "scene/label_values.h"
 #include "scene/open_volume.h"
@@ -76,14 +77,15 @@ std::vector<float> inside_labels(const ProxyDescription& proxy, const std::strin
 
 }  // namespace
 
-Volume proxy_volume(const ProxyDescription& proxy, const Volume& from, const std::string& where) {
+Volume proxy_volume(const ProxyDescription& proxy, const Volume& from, const std::string& where,
+                    const Progress& progress) {
   switch (proxy.kind) {
     case ProxyKind::kGradient:
-      return gradient_magnitude(from);
+      return gradient_magnitude(from, progress);
     case ProxyKind::kSmoothed:
-      return smoothed(from, proxy.sigma_mm);
+      return smoothed(from, proxy.sigma_mm, progress);
     case ProxyKind::kDistance:
-      return signed_distance(from, inside_labels(proxy, where));
+      return signed_distance(from, inside_labels(proxy, where), progress);
     case ProxyKind::kFile:
       break;
   }
@@ -97,7 +99,8 @@ Volume proxy_volume(const ProxyDescription& proxy, const Volume& from, const std
 }
 
 RuleVolumes::RuleVolumes(const Volume& main, const VolumeStatistics& statistics,
-                         const std::vector<ProxyDescription>& proxies, const Double3& origin_mm) {
+                         const std::vector<ProxyDescription>& proxies, const Double3& origin_mm,
+                         const Progress& progress) {
   RuleVolume data;
   data.name = "data";
   data.view.grid = make_grid_view(moved_to_origin(main, origin_mm));
@@ -128,7 +131,11 @@ RuleVolumes::RuleVolumes(const Volume& main, const VolumeStatistics& statistics,
     const auto number = from_file ? 0 : static_cast<std::size_t>(of - volumes_.begin());
     if (proxy.kind == ProxyKind::kDistance && has_none_of(of->view.grid, proxy.labels))
       warnings_.push_back(where + "/labels: none of them occurs in \"" + proxy.of + "\"");
-    add(proxy, proxy_volume(proxy, number == 0 ? main : voxels_[number - 1], where), origin_mm, where);
+    // Its voxels, and looking them over.
+    const int part = 2 * static_cast<int>(i), parts = 2 * static_cast<int>(proxies.size());
+    Volume volume =
+        proxy_volume(proxy, number == 0 ? main : voxels_[number - 1], where, part_of(progress, part, parts));
+    add(proxy, std::move(volume), origin_mm, where, part_of(progress, part + 1, parts));
     // Where the gradient is large says nothing about which way a surface faces.
     if (proxy.kind == ProxyKind::kGradient)
       volumes_.back().view.surface_volume = volumes_[number].view.surface_volume;
@@ -136,7 +143,7 @@ RuleVolumes::RuleVolumes(const Volume& main, const VolumeStatistics& statistics,
 }
 
 void RuleVolumes::add(const ProxyDescription& proxy, Volume volume, const Double3& origin_mm,
-                      const std::string& where) {
+                      const std::string& where, const Progress& progress) {
   warnings_.insert(warnings_.end(), volume.warnings.begin(), volume.warnings.end());
   voxels_.push_back(std::move(volume));
   RuleVolume out;
@@ -148,7 +155,7 @@ void RuleVolumes::add(const ProxyDescription& proxy, Volume volume, const Double
   view.index_from_main = composed(view.grid.index_from_world, main.world_from_index);
   view.nearest = proxy.lookup == Lookup::kNearest;
   view.surface_volume = view.nearest ? 0 : static_cast<std::int32_t>(volumes_.size());
-  const VolumeStatistics statistics = compute_statistics(view.grid);
+  const VolumeStatistics statistics = compute_statistics(view.grid, progress);
   const std::string file = proxy.kind == ProxyKind::kFile ? proxy.path : where;
   if (!std::isfinite(statistics.lower) || !std::isfinite(statistics.upper))
     throw Error(ErrorCode::kUnsupported, file, "its values exceed what a 32-bit float holds; rescale them");

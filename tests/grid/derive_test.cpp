@@ -263,6 +263,25 @@ TEST(Derived, DoNotDependOnTheThreads) {
   same([&] { return signed_distance(volume, std::array{0.0f}); });
 }
 
+TEST(Derived, TellHowMuchIsDone) {
+  const Volume volume =
+      make_volume<std::int16_t>({40, 40, 40}, [](auto i, auto, auto) { return i < 20 ? 0 : 1; });
+  struct Ended {};
+  const auto check = [](auto derive) {
+    std::vector<double> told;
+    derive([&](double share) { told.push_back(share); });
+    ASSERT_GE(told.size(), 2u);
+    EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+    EXPECT_LE(told.back(), 1);
+    // What is thrown reaches the caller.
+    EXPECT_THROW(derive([](double) { throw Ended(); }), Ended);
+  };
+  check([&](const Progress& progress) { gradient_magnitude(volume, progress); });
+  check([&](const Progress& progress) { smoothed(volume, 1, progress); });
+  check([&](const Progress& progress) { smoothed(volume, 4, progress); });
+  check([&](const Progress& progress) { signed_distance(volume, std::array{1.0f}, progress); });
+}
+
 TEST(Derived, RefuseMoreThanTheMachineHas) {
   Volume volume;
   volume.size = {1 << 20, 1 << 20, 1 << 10};

@@ -108,6 +108,32 @@ TEST_F(Socket, OpeningTellsHowFarItIs) {
   EXPECT_EQ(page.next("status")["stage"], "ready");
 }
 
+TEST_F(Socket, CompilingTellsHowFarItIs) {
+  server::ServerOptions impatient = options();
+  impatient.scene = ramp_scene();
+  impatient.live.patience_s = 0;
+  Page page(start(impatient));
+  page.next("frame", [](const json& m) { return m["done"] == true; });
+  // How many shares are told of one scene: growing, up to 1.
+  const auto told = [&] {
+    int count = 0;
+    for (double share = 0; share < 1; ++count) {
+      const double now = page.next("compiling")["share"];
+      EXPECT_GT(now, share);
+      EXPECT_LE(now, 1);
+      share = now;
+    }
+    return count;
+  };
+  page.send(edit(1, "/visibility", {{"important", json::array({{{"range", {100, 5000}}}})}}));
+  EXPECT_EQ(page.next("edited")["seq"], 1);
+  EXPECT_GE(told(), 1);
+  // Volumes derived from others, whose rows are told of at once.
+  page.send(edit(2, "/proxies", json::array({{{"name", "g"}, {"kind", "gradient"}}})));
+  EXPECT_EQ(page.next("edited")["seq"], 2);
+  while (told() < 2) continue;
+}
+
 TEST_F(Socket, APictureIsAWholePng) {
   Page page(start_with_ramp());
   const json frame = page.next("frame", [](const json& m) { return m["done"] == true; });
@@ -492,6 +518,21 @@ TEST_F(Socket, SeekingShowsATimeAndChangesNothing) {
   const json back = page.next("frame", [](const json& m) { return m["revision"] == 4; });
   EXPECT_EQ(back["camera"], still["camera"]);
   EXPECT_EQ(Page(*address_).next("scene")["scene"]["camera"], before["scene"]["camera"]);
+}
+
+TEST_F(Socket, APageThatGoesEndsItsSeeking) {
+  Page page(start_with_ramp());
+  page.send(edit(1, "/animation", {{"turntable", {{"seconds", 4}}}}));
+  const json still =
+      page.next("frame", [](const json& m) { return m["done"] == true && m["revision"] == 2; });
+  {
+    Page other(*address_);
+    other.send({{"type", "seek"}, {"time_s", 2}});
+    page.next("frame", [](const json& m) { return m["revision"] == 3; });
+    other.cut();
+  }
+  const json back = page.next("frame", [](const json& m) { return m["revision"] == 4; });
+  EXPECT_EQ(back["camera"], still["camera"]);
 }
 
 TEST_F(Socket, ProbesFindPlaceValueAndLabel) {

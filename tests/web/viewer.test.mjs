@@ -185,6 +185,27 @@ test("a page that lost its server says so, and two pages see the same scene", as
   await viewer.page.getByText(/connect/i).first().waitFor();
 });
 
+test("tells how far it is with what the next picture needs", async (t) => {
+  const viewer = await open(t, [headCt, ...quick]);
+  // What the server says where it takes long.
+  await viewer.page.addInitScript(() => {
+    const Plain = window.WebSocket;
+    window.WebSocket = class extends Plain {
+      constructor(...args) {
+        super(...args);
+        window.hear = (message) => this.dispatchEvent(new MessageEvent("message", { data: JSON.stringify(message) }));
+      }
+    };
+  });
+  await viewer.page.reload();
+  await viewer.done();
+  const told = viewer.page.getByText("preparing the scene 40 %");
+  await viewer.page.evaluate(() => window.hear({ type: "compiling", share: 0.4 }));
+  await told.waitFor();
+  await viewer.page.evaluate(() => window.hear({ type: "compiling", share: 1 }));
+  await told.waitFor({ state: "detached" });
+});
+
 test("writes no more than it is asked to", async (t) => {
   // A scene that names files elsewhere is refused, and the page shows why.
   const viewer = await open(t, [headCt, ...quick]);

@@ -1,6 +1,6 @@
 import { useEffect, useState } from "preact/hooks";
 import { connect, link, type LinkState } from "../state/connection";
-import { frame } from "../state/frame";
+import { compiling, frame } from "../state/frame";
 import { scene } from "../state/scene";
 import { status } from "../state/session";
 import { Button, IconButton } from "../ui/controls";
@@ -53,7 +53,7 @@ export function Loading() {
         <div class="card-title">
           <strong>Rendering the first picture</strong>
         </div>
-        <Bar label="First picture" />
+        <Bar share={compiling.value ?? undefined} label="First picture" />
       </div>
     );
   }

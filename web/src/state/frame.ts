@@ -17,6 +17,10 @@ const newestProgress = signal<Progress | null>(null);
 /** How far the still picture is; null while the view moves. */
 export const progress: ReadonlySignal<Progress | null> = newestProgress;
 
+const compilingShare = signal<number | null>(null);
+/** How much of what the next picture needs before its samples is done, 0 to 1; null where that takes no time. */
+export const compiling: ReadonlySignal<number | null> = compilingShare;
+
 let decoding: Promise<void> = Promise.resolve();
 
 onFrame((header, data) => {
@@ -35,7 +39,12 @@ on("progress", (message) => {
   newestProgress.value = message;
 });
 
+on("compiling", ({ share }) => {
+  compilingShare.value = share < 1 ? share : null;
+});
+
 on("status", (message) => {
+  compilingShare.value = null;
   if (message.stage !== "ready") newestProgress.value = null;
   if (message.stage === "empty") newest.value = null;
 });

@@ -86,6 +86,13 @@ export interface Progress {
   samples_per_s: number;
 }
 
+/** What the next picture needs before its samples, where that takes more than a second. */
+export interface Compiling {
+  type: "compiling";
+  /** 0 to 1; 1 at its end. */
+  share: number;
+}
+
 export interface Probe {
   type: "probe";
   id: number;
@@ -130,6 +137,7 @@ export type ServerMessage =
   | Status
   | Trouble
   | Progress
+  | Compiling
   | Probe
   | ExportState
   | Split

@@ -1,7 +1,7 @@
 import { formatPosition } from "../geometry/orientation";
 import { formatValue } from "../model/axis";
 import { titleOf } from "../model/label-rules";
-import { frame, progress } from "../state/frame";
+import { compiling, frame, progress } from "../state/frame";
 import { labelColors } from "../state/label-colors";
 import type { FrameHeader, Probe } from "../state/protocol";
 import { viewers } from "../state/session";
@@ -102,6 +102,9 @@ export function StatusBar() {
       </div>
       <div class="work" role="group" aria-label="Progress of the picture">
         {viewers.value > 1 && <span class="cell dim">{viewers.value} viewers</span>}
+        {compiling.value !== null && (
+          <span class="cell">preparing the scene {Math.floor(compiling.value * 100)} %</span>
+        )}
         {header && <Work header={header} />}
       </div>
     </footer>
