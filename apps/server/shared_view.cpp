@@ -387,7 +387,7 @@ void SharedView::tell_trouble(const std::string& message) {
   tell_all(in_words({{"type", "trouble"}, {"message", message}}));
 }
 
-Json SharedView::in_words(Json message) const {
+SharedView::Json SharedView::in_words(Json message) const {
   for (const char* key : {"message", "where"})
     if (message.contains(key)) message[key] = files_.uploads().with_names_alone(message[key]);
   return message;
