@@ -44,8 +44,10 @@ TEST_F(Socket, SampleScenesAreOfferedAndOpenDenoised) {
   fs::create_directories(folder_ / "program/data");
   fs::create_directories(folder_ / "program/examples");
   fs::copy(files_ / "ramp.nrrd", folder_ / "program/data/ramp.nrrd");
-  write_bytes(folder_ / "program/examples/brain-regions.json", R"({"volume":{"path":"../data/ramp.nrrd"}})");
-  write_bytes(folder_ / "program/examples/other.json", R"({"volume":{"path":"../data/ramp.nrrd"}})");
+  write_bytes(folder_ / "program/examples/brain-regions.json",
+              R"({"version":1,"volume":{"path":"../data/ramp.nrrd"}})");
+  write_bytes(folder_ / "program/examples/other.json",
+              R"({"version":1,"volume":{"path":"../data/ramp.nrrd"}})");
   server::ServerOptions with_samples = options();
   with_samples.samples = folder_ / "program/data";
   Page page(start(with_samples));

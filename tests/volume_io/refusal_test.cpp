@@ -57,7 +57,7 @@ TEST_F(Refusal, SaysTheReasonAlone) {
   EXPECT_EQ(message("no such thing\n"),
             "the header cannot be read: couldn't parse \"no such thing\" as magic or beginning of any "
             "recognized format");
-  EXPECT_EQ(message(nrrd("uchar", "-4 3 2", 3)), "the header cannot be read: axis 0 size (-4) below 1");
+  EXPECT_EQ(message(nrrd("uchar", "0 3 2", 3)), "the header cannot be read: axis 0 size is zero!");
 }
 
 TEST_F(Refusal, AFourthDimensionOfOneIsFine) {

@@ -239,3 +239,25 @@ test("labels of this computer are added to the volume", async (t) => {
   const { proxies } = await viewer.scene();
   assert.deepEqual(proxies.map(({ name, path, lookup }) => [name, path, lookup]), [["parts", "parts.nrrd", "nearest"]]);
 });
+
+test("a file that is no label volume is not added, and one that is can follow", async (t) => {
+  const viewer = await open(t, ["phantom", ...quick]);
+  await viewer.done();
+  const fractions = join(viewer.scratch, "fractions.nrrd");
+  writeFileSync(fractions, Buffer.concat([
+    Buffer.from("NRRD0004\ntype: float\ndimension: 3\nsizes: 4 4 4\nencoding: raw\nendian: little\n\n"),
+    Buffer.from(Float32Array.from({ length: 64 }, (_, i) => i / 8).buffer),
+  ]));
+  await viewer.panel("Labels");
+  const add = async (file) => {
+    await viewer.button("Label volume from a file").click();
+    await choose(viewer, "Upload from this computer", [file]);
+  };
+  await add(fractions);
+  await viewer.page.getByText(/fractions\.nrrd: expected a label volume of whole numbers/).first().waitFor();
+  assert.equal(await viewer.page.getByText("/uploads/").count(), 0, "a path that the user does not know is shown");
+  await viewer.sceneWith((s) => !s.proxies?.length, "no label volume");
+  await add(writeBall(join(viewer.scratch, "ball.nrrd")));
+  await viewer.page.getByText("ball: 1 label", { exact: true }).first().waitFor();
+  assert.equal((await viewer.scene()).proxies.length, 1);
+});

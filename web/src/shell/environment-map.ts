@@ -1,5 +1,5 @@
-import { on, onFrame } from "../state/connection";
-import { edit, revision, scene, undo } from "../state/scene";
+import { scene } from "../state/scene";
+import { tryEdit } from "../state/tried-edit";
 import { showToast } from "../ui/toast";
 import { uploaded } from "./upload";
 
@@ -21,22 +21,6 @@ async function isWhatItIsCalled(file: File): Promise<boolean> {
   return begin.every((byte, i) => bytes[i] === byte);
 }
 
-/** Resolves once a picture shows what was edited last, to true, or once that cannot be drawn, to false. */
-function followed(): Promise<boolean> {
-  const before = revision.peek();
-  return new Promise((resolve) => {
-    const ends = [
-      on("trouble", () => end(false)),
-      on("refused", () => end(false)),
-      onFrame((header) => header.revision > before && end(true)),
-    ];
-    const end = (is: boolean) => {
-      for (const stop of ends) stop();
-      resolve(is);
-    };
-  });
-}
-
 /** Uploads an environment map and lights the volume by it. Where that fails, which is told, all stays as it was. */
 export async function lightBy(file: File): Promise<void> {
   const refuse = (why: string) => showToast({ tone: "error", text: `${file.name} ${why}` });
@@ -45,9 +29,5 @@ export async function lightBy(file: File): Promise<void> {
   if (!(await isWhatItIsCalled(file))) return refuse("is damaged: it does not begin as pictures of its kind do");
   const path = await uploaded([{ name: file.name, file }]);
   if (!path) return;
-  const unchanged = revision.peek();
-  edit([["/environment/image", path]]);
-  if (await followed()) return showToast({ text: `${file.name} lights the volume` });
-  // A refused edit has changed nothing, and later ones of others are theirs.
-  if (revision.peek() === unchanged + 1) undo();
+  if (await tryEdit([["/environment/image", path]])) showToast({ text: `${file.name} lights the volume` });
 }

@@ -53,6 +53,11 @@ export function LabelsPanel() {
             onChange={setChosen}
           />
         )}
+        {of.proxies.length >= mostProxies && (
+          <p class="note">
+            A scene has up to {mostProxies} further volumes; the transfer function panel lists and removes them.
+          </p>
+        )}
         {volumes.length === 0 && (
           <p class="note">A label volume names the parts of the picture: an atlas, or a segmentation of this volume.</p>
         )}
@@ -131,7 +136,7 @@ function LabelList({ of, name }: { of: Scene; name: string }) {
   const values = found.map((label) => label.value);
   const visible = found.filter((label) => !looks.get(label.value)?.hidden).length;
   return (
-    <Section title={`${name}: ${listed.length} labels`}>
+    <Section title={`${name}: ${listed.length} ${listed.length === 1 ? "label" : "labels"}`}>
       {merge !== "priority" && rules.length > 0 && (
         <p class="note warning">
           Rules are merged as {merge === "product" ? "a product" : "the densest"}; labels are hidden and made opaque by

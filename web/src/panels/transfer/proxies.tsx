@@ -1,7 +1,8 @@
 import { useState } from "preact/hooks";
 import { mostProxies } from "../../model/rules";
-import { edit, newGesture } from "../../state/scene";
+import { edit } from "../../state/scene";
 import type { Proxy, Scene } from "../../state/scene-types";
+import { tryEdit } from "../../state/tried-edit";
 import { Button, Field, IconButton, Select, Slider, Toggle } from "../../ui/controls";
 import { FilePicker } from "../file-picker";
 
@@ -40,10 +41,10 @@ const kinds: { value: Proxy["kind"]; label: string }[] = [
   { value: "file", label: "From a file" },
 ];
 
-/** Adds a volume beside the data, for rules to read. */
+/** Adds a volume beside the data, for rules to read, unless it cannot be read itself; returns its name. */
 export function addProxy(of: Scene, proxy: Partial<Proxy> & { name: string }): string {
   const name = freeName(of, proxy.name);
-  edit([["/proxies/-", { ...fileProxy(name), ...proxy, name }]], newGesture("proxy"));
+  void tryEdit([["/proxies/-", { ...fileProxy(name), ...proxy, name }]]);
   return name;
 }
 
