@@ -142,6 +142,75 @@ test("lights: added, dragged, moving by themselves, kept as tracks", async (t) =
   await viewer.sceneWith((s) => (s.lights ?? []).length === before.length, "one light less");
 });
 
+test("a light that flashed has its own intensity again, however the flash ends", async (t) => {
+  const viewer = await open(t, [headCt, ...quick]);
+  const { page } = viewer;
+  await viewer.panel("Lights and background");
+  await viewer.button("Area").click();
+  const lightsAtFirst = (await viewer.sceneWith((s) => s.lights?.length, "a light")).lights;
+  const index = lightsAtFirst.length - 1, own = lightsAtFirst[index].intensity;
+  const flash = page.getByRole("switch", { name: "Flash" });
+  const dim = () => viewer.sceneWith((s) => s.lights[index].intensity < 0.8 * own, "a dim light");
+  const bright = (what) => viewer.sceneWith((s) => s.lights[index].intensity === own, what);
+
+  for (let round = 1; round <= 2; ++round) {
+    await flash.click();
+    await dim();
+    await flash.click();
+    await bright(`its own intensity after round ${round}`);
+  }
+  await flash.click();
+  await dim();
+  await page.getByRole("switch", { name: "Rotate" }).click();
+  await bright("its own intensity while it rotates instead");
+  await page.getByRole("switch", { name: "Rotate" }).click();
+
+  await flash.click();
+  await dim();
+  await viewer.button("Keep the flash").click();
+  const { animation } = await viewer.sceneWith((s) => s.animation, "a track");
+  assert.equal(animation.tracks[0].keys[0][1], own, "the track begins dim");
+  await bright("its own intensity after the flash was kept");
+
+  // Another page takes a light away, so that it has another number; then it is that page's to say how bright it is.
+  await viewer.button("Duplicate the light").click();
+  const last = index + 1;
+  await viewer.sceneWith((s) => s.lights.length === last + 1, "a further light");
+  const other = await page.context().newPage();
+  await other.goto(viewer.viewer.url);
+  await other.getByRole("radio").nth(last).waitFor();
+  await page.bringToFront();
+  await flash.click();
+  await viewer.sceneWith((s) => s.lights[last].intensity < 0.8 * own, "another dim light");
+  await other.getByRole("radio").nth(0).click();
+  await other.getByRole("button", { name: "Remove the light" }).click();
+  await viewer.sceneWith((s) => s.lights.length === last && s.lights[last - 1].intensity === own, "its own intensity at another place");
+  await other.close();
+
+  const left = last - 1;
+  await page.getByRole("radio").nth(left).click();
+  await flash.click();
+  await viewer.sceneWith((s) => s.lights[left].intensity < 0.8 * own, "a dim light again");
+  const intensity = page.getByRole("textbox", { name: "Intensity", exact: true }).first();
+  await intensity.fill(String(2 * own));
+  await intensity.press("Enter");
+  await page.getByRole("switch", { name: "Flash", checked: false }).waitFor();
+  await viewer.sceneWith((s) => s.lights[left].intensity === 2 * own, "the intensity that was typed");
+
+  // The page goes, with or without a last word.
+  await flash.click();
+  await viewer.sceneWith((s) => s.lights[left].intensity < own, "a dim light before the page goes");
+  await page.reload();
+  await viewer.sceneWith((s) => s.lights[left].intensity === 2 * own, "its own intensity after the page was loaded again");
+  await viewer.done();
+  await page.getByRole("radio").nth(left).click();
+  await flash.click();
+  await viewer.sceneWith((s) => s.lights[left].intensity < own, "a dim light before the page ends");
+  await page.evaluate(() => addEventListener("pagehide", (event) => event.stopImmediatePropagation(), true));
+  await page.reload();
+  await viewer.sceneWith((s) => s.lights[left].intensity === 2 * own, "its own intensity after a page that had no last word");
+});
+
 test("the environment's picture lights the volume", { skip: missing("env/forest.exr", "env/night.exr") }, async (t) => {
   const viewer = await open(t, [headCt, ...quick], { folder: samples });
   await viewer.done();
