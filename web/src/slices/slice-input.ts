@@ -43,7 +43,6 @@ export function slicePane(plane: Plane, pane: PaneView, mm: number, facts: Volum
   };
 }
 
-const kClick_px = 4;
 const kZoomOfKey = 1.25;
 /** Of a pixel of the wheel with Ctrl, which is also what a pinch on a touchpad comes as. */
 const kZoomOfWheel = 0.006;
@@ -74,10 +73,8 @@ export function sliceInput(plane: Plane, pane: PaneView, mm: number, facts: Volu
     const box = (event.currentTarget as Element).getBoundingClientRect();
     return startDrag(event, {
       move: () => undefined,
-      end: ({ dx, dy, event: up }) => {
-        if (up.type === "pointercancel" || Math.hypot(dx, dy) >= kClick_px) return;
-        void setEnd(slicePane(plane, pane, mm, facts), up.clientX - box.left, up.clientY - box.top);
-      },
+      click: ({ event: up }) =>
+        void setEnd(slicePane(plane, pane, mm, facts), up.clientX - box.left, up.clientY - box.top),
     });
   };
 
