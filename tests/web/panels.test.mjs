@@ -77,9 +77,18 @@ test("a rule of two values: its columns are added, moved and removed", async (t)
   });
   assert.ok(filled > 0.05 && filled < 0.95, `${filled} of the plane`);
   const plane = await viewer.page.getByRole("group", { name: /^Columns of the rule/ }).boundingBox();
-  await viewer.page.mouse.dblclick(plane.x + plane.width / 2, plane.y + plane.height * 0.4);
-  const added = await viewer.sceneWith((s) => s.transfer.rules[0].columns.length === count + 1, "a further column");
   const places = (s) => s.transfer.rules[0].columns.map((column) => column.at);
+  const addColumn = async () => {
+    await viewer.page.mouse.dblclick(plane.x + plane.width / 2, plane.y + plane.height * 0.4);
+    return viewer.sceneWith((s) => s.transfer.rules[0].columns.length === count + 1, "a further column");
+  };
+  // The new one has the focus, not what has the number of the one that had it.
+  await columns.nth(count - 1).focus();
+  await addColumn();
+  await viewer.page.getByRole("button", { name: /^Column at/, pressed: true }).and(viewer.page.locator(":focus")).waitFor({ state: "attached" });
+  await viewer.page.keyboard.press("Delete");
+  await viewer.sceneWith((s) => json(places(s)) === json(places(two)), "the columns without the new one");
+  const added = await addColumn();
   const index = places(added).findIndex((at) => !places(two).includes(at));
   const line = await columns.nth(index).boundingBox();
   await viewer.drag([0, -12], { from: [line.x + line.width / 2, line.y + line.height / 2] });

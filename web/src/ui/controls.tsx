@@ -56,7 +56,7 @@ export function NumberInput(props: NumberProps) {
   // A number that changes by itself stays selected as a whole: what is typed replaces it.
   const whole = field.current !== null && isWhollySelected(field.current);
   useLayoutEffect(() => {
-    if (whole) field.current!.select();
+    if (whole && field.current === document.activeElement) field.current!.select();
   }, [text]);
   const take = (typed: string) => {
     setDraft(null);
