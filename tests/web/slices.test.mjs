@@ -169,6 +169,36 @@ test("a click in the picture takes the slices there, and both read the same valu
   }
 });
 
+test("what is read is under the pointer, also when it rests and the slice moves", async (t) => {
+  const slices = await openSlices(t, [headCt, ...quick]);
+  const { page } = slices;
+  const position = page.locator(".status-bar .position");
+  const read = async () => (await position.innerText()).match(/[\d.]+/g).map(Number);
+  const until = async (pred, what) => {
+    for (let tries = 0; ; ++tries) {
+      const at = await read();
+      if (pred(at)) return at;
+      assert.ok(tries < 100, `${what}: ${at}`);
+      await page.waitForTimeout(30);
+    }
+  };
+  const [x, y] = await slices.middle("Axial");
+  await page.mouse.move(x + 60, y + 20);
+  await position.waitFor();
+  const first = await slices.at();
+  const start = await until((at) => at[2] === Math.abs(first[2]), "not in the axial plane");
+  await page.mouse.wheel(0, -100);
+  const [, , wheeled] = await slices.until((at) => at[2] !== first[2], "one slice on");
+  assert.deepEqual(await until((at) => at[2] === Math.abs(wheeled), "not in the next slice"), [start[0], start[1], Math.abs(wheeled)]);
+  await slices.plane("Axial").focus();
+  await page.keyboard.press("PageUp");
+  const [, , paged] = await slices.until((at) => at[2] !== wheeled, "ten slices on");
+  await until((at) => at[2] === Math.abs(paged), "not ten slices on");
+  // Nearer about the crosshair, in the pane's middle: it comes nearer to that.
+  await page.keyboard.press("+");
+  await until((at) => Math.abs(at[0] - start[0]) > 2, "not where it is seen now");
+});
+
 test("places are told by the patient's sides everywhere, and typed so", async (t) => {
   // The ramp's box goes from -0.5 to 47.5 mm: its first voxels are at 0, and half a voxel is on the right.
   const scene = (folder) => {

@@ -56,6 +56,33 @@ test("reads value and position under the pointer", async (t) => {
   await position.waitFor({ state: "detached" });
 });
 
+test("what is read is under the pointer, also when it rests and the picture moves", async (t) => {
+  const viewer = await openBall(t);
+  const { page } = viewer;
+  const position = page.locator(".status-bar .position");
+  await page.mouse.move(...(await placeOf(viewer, center_mm + 10, center_mm)));
+  await position.waitFor();
+  const read = async () => (await position.innerText()).match(/-?[\d.]+/g).map(Number);
+  const until = async (pred, what) => {
+    for (let tries = 0; ; ++tries) {
+      const at = await read();
+      if (pred(at)) return at;
+      assert.ok(tries < 200, `${what}: ${at}`);
+      await page.waitForTimeout(30);
+    }
+  };
+  const depth = Math.sqrt(radius_mm ** 2 - 10 ** 2);
+  await until(([x, y]) => Math.abs(x - center_mm - 10) < 0.5 && Math.abs(y - center_mm + depth) < 1, "not on the front");
+  await page.keyboard.press("2");
+  await until(([x, y]) => Math.abs(x - center_mm + 10) < 0.5 && Math.abs(y - center_mm - depth) < 1, "not on the back");
+  await page.mouse.wheel(0, -400);
+  await until(([x]) => x > center_mm - 9 && x < center_mm - 2, "not nearer to the middle");
+  // A drag ends where the pointer then rests.
+  const [x, y] = await placeOf(viewer, center_mm, center_mm);
+  await viewer.drag([60, 0], { from: [x, y] });
+  await position.waitFor();
+});
+
 test("measures a distance that is known, and its end can be moved", async (t) => {
   const viewer = await openBall(t);
   await viewer.page.keyboard.press("m");

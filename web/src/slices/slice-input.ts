@@ -40,6 +40,7 @@ export function slicePane(plane: Plane, pane: PaneView, mm: number, facts: Volum
       return { x: left, y: top };
     },
     at: (left, top) => pointOf(layout, pane, mm, left, top),
+    under: (left, top) => () => pointOf(layout, paneView(pane), crosshair.value?.[layout.normal] ?? mm, left, top),
   };
 }
 
@@ -101,7 +102,14 @@ export function sliceInput(plane: Plane, pane: PaneView, mm: number, facts: Volu
 
   const hover = (event: PointerEvent) => {
     if (event.movementX || event.movementY) hideKeyCursor();
-    pointAt(event.buttons === 0 ? pointOfEvent(event) : null);
+    const box = (event.currentTarget as Element).getBoundingClientRect();
+    const under = slicePane(plane, pane, mm, facts).under(event.clientX - box.left, event.clientY - box.top);
+    pointAt(event.buttons === 0 ? under : null);
+  };
+  const up = (event: PointerEvent) => {
+    fingers.up(event);
+    // After a drag it rests where it is let go.
+    if (event.pointerType === "mouse") hover(event);
   };
 
   const wheel = (event: WheelEvent) => {
@@ -142,5 +150,5 @@ export function sliceInput(plane: Plane, pane: PaneView, mm: number, facts: Volu
     event.stopPropagation();
   };
 
-  return { down, move, wheel, keyDown };
+  return { down, move, up, wheel, keyDown };
 }

@@ -62,7 +62,7 @@ export function SliceView({ plane, overlay }: { plane: Plane; overlay: string })
       aria-label={`${layout.title} slice at ${place}. ${measuring.value ? measuringKeys : sliceKeys}`}
       onPointerDown={input.down}
       onPointerMove={input.move}
-      onPointerUp={fingers.up}
+      onPointerUp={input.up}
       onPointerCancel={fingers.up}
       onPointerLeave={() => pointAt(null)}
       onWheel={input.wheel}

@@ -35,6 +35,7 @@ export function picturePane(): MeasuringPane {
       return seen && seen.depth_mm > 0 ? seen : null;
     },
     at: (x, y) => ({ x, y }),
+    under: (x, y) => () => ({ x, y }),
   };
 }
 
