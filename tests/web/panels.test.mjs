@@ -22,6 +22,13 @@ test("labels of a file are hidden, made of a material, and undone", { skip: miss
   await viewer.page.getByRole("dialog", { name: "Add a label volume" }).getByRole("button", { name: /aal\.nii\.gz/ }).click();
   const added = await viewer.sceneWith((s) => s.proxies?.length === 1, "a label volume");
   assert.equal(added.proxies[0].lookup, "nearest");
+  // What is found is changed at once: of one side where that is meant.
+  await viewer.page.getByLabel("Search labels of aal").fill("frontal mid l");
+  await viewer.page.getByText(/^2 found/).waitFor();
+  await viewer.button("Color").click();
+  const left = await viewer.sceneWith((s) => s.transfer.rules?.length > 0, "colors");
+  assert.deepEqual(left.transfer.rules[0].points.map(({ value }) => value).sort((a, b) => a - b), [7, 9]);
+  await viewer.undo();
   await viewer.page.getByLabel("Search labels of aal").fill("frontal mid");
   await viewer.page.getByText(/^4 found/).waitFor();
   await viewer.done();
@@ -77,9 +84,18 @@ test("a rule of two values: its columns are added, moved and removed", async (t)
   });
   assert.ok(filled > 0.05 && filled < 0.95, `${filled} of the plane`);
   const plane = await viewer.page.getByRole("group", { name: /^Columns of the rule/ }).boundingBox();
-  await viewer.page.mouse.dblclick(plane.x + plane.width / 2, plane.y + plane.height * 0.4);
-  const added = await viewer.sceneWith((s) => s.transfer.rules[0].columns.length === count + 1, "a further column");
   const places = (s) => s.transfer.rules[0].columns.map((column) => column.at);
+  const addColumn = async () => {
+    await viewer.page.mouse.dblclick(plane.x + plane.width / 2, plane.y + plane.height * 0.4);
+    return viewer.sceneWith((s) => s.transfer.rules[0].columns.length === count + 1, "a further column");
+  };
+  // The new one has the focus, not what has the number of the one that had it.
+  await columns.nth(count - 1).focus();
+  await addColumn();
+  await viewer.page.getByRole("button", { name: /^Column at/, pressed: true }).and(viewer.page.locator(":focus")).waitFor({ state: "attached" });
+  await viewer.page.keyboard.press("Delete");
+  await viewer.sceneWith((s) => json(places(s)) === json(places(two)), "the columns without the new one");
+  const added = await addColumn();
   const index = places(added).findIndex((at) => !places(two).includes(at));
   const line = await columns.nth(index).boundingBox();
   await viewer.drag([0, -12], { from: [line.x + line.width / 2, line.y + line.height / 2] });
@@ -140,6 +156,75 @@ test("lights: added, dragged, moving by themselves, kept as tracks", async (t) =
   assert.ok(both.animation.tracks.some(({ field }) => field === `/lights/${index}/intensity`));
   await viewer.button("Remove the light").click();
   await viewer.sceneWith((s) => (s.lights ?? []).length === before.length, "one light less");
+});
+
+test("a light that flashed has its own intensity again, however the flash ends", async (t) => {
+  const viewer = await open(t, [headCt, ...quick]);
+  const { page } = viewer;
+  await viewer.panel("Lights and background");
+  await viewer.button("Area").click();
+  const lightsAtFirst = (await viewer.sceneWith((s) => s.lights?.length, "a light")).lights;
+  const index = lightsAtFirst.length - 1, own = lightsAtFirst[index].intensity;
+  const flash = page.getByRole("switch", { name: "Flash" });
+  const dim = () => viewer.sceneWith((s) => s.lights[index].intensity < 0.8 * own, "a dim light");
+  const bright = (what) => viewer.sceneWith((s) => s.lights[index].intensity === own, what);
+
+  for (let round = 1; round <= 2; ++round) {
+    await flash.click();
+    await dim();
+    await flash.click();
+    await bright(`its own intensity after round ${round}`);
+  }
+  await flash.click();
+  await dim();
+  await page.getByRole("switch", { name: "Rotate" }).click();
+  await bright("its own intensity while it rotates instead");
+  await page.getByRole("switch", { name: "Rotate" }).click();
+
+  await flash.click();
+  await dim();
+  await viewer.button("Keep the flash").click();
+  const { animation } = await viewer.sceneWith((s) => s.animation, "a track");
+  assert.equal(animation.tracks[0].keys[0][1], own, "the track begins dim");
+  await bright("its own intensity after the flash was kept");
+
+  // Another page takes a light away, so that it has another number; then it is that page's to say how bright it is.
+  await viewer.button("Duplicate the light").click();
+  const last = index + 1;
+  await viewer.sceneWith((s) => s.lights.length === last + 1, "a further light");
+  const other = await page.context().newPage();
+  await other.goto(viewer.viewer.url);
+  await other.getByRole("radio").nth(last).waitFor();
+  await page.bringToFront();
+  await flash.click();
+  await viewer.sceneWith((s) => s.lights[last].intensity < 0.8 * own, "another dim light");
+  await other.getByRole("radio").nth(0).click();
+  await other.getByRole("button", { name: "Remove the light" }).click();
+  await viewer.sceneWith((s) => s.lights.length === last && s.lights[last - 1].intensity === own, "its own intensity at another place");
+  await other.close();
+
+  const left = last - 1;
+  await page.getByRole("radio").nth(left).click();
+  await flash.click();
+  await viewer.sceneWith((s) => s.lights[left].intensity < 0.8 * own, "a dim light again");
+  const intensity = page.getByRole("textbox", { name: "Intensity", exact: true }).first();
+  await intensity.fill(String(2 * own));
+  await intensity.press("Enter");
+  await page.getByRole("switch", { name: "Flash", checked: false }).waitFor();
+  await viewer.sceneWith((s) => s.lights[left].intensity === 2 * own, "the intensity that was typed");
+
+  // The page goes, with or without a last word.
+  await flash.click();
+  await viewer.sceneWith((s) => s.lights[left].intensity < own, "a dim light before the page goes");
+  await page.reload();
+  await viewer.sceneWith((s) => s.lights[left].intensity === 2 * own, "its own intensity after the page was loaded again");
+  await viewer.done();
+  await page.getByRole("radio").nth(left).click();
+  await flash.click();
+  await viewer.sceneWith((s) => s.lights[left].intensity < own, "a dim light before the page ends");
+  await page.evaluate(() => addEventListener("pagehide", (event) => event.stopImmediatePropagation(), true));
+  await page.reload();
+  await viewer.sceneWith((s) => s.lights[left].intensity === 2 * own, "its own intensity after a page that had no last word");
 });
 
 test("the environment's picture lights the volume", { skip: missing("env/forest.exr", "env/night.exr") }, async (t) => {

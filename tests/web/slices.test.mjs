@@ -127,20 +127,66 @@ test("one crosshair: clicks, wheel, keys and sliders of one plane move the other
   assert.equal(dragged[1], clicked[1]);
 
   const { spacing_mm } = await page.evaluate(async () => (await fetch("/api/volume")).json());
-  const step = Math.min(...spacing_mm);
   await page.mouse.move(...(await slices.middle("Sagittal")));
   await page.mouse.wheel(0, -100);
-  const wheeled = await slices.until((at) => at[0] !== dragged[0], "one plane on");
-  assert.ok(Math.abs(wheeled[0] - dragged[0] - step) < 0.11, `${wheeled[0] - dragged[0]} mm, not ${step}`);
+  const wheeled = await slices.until((at) => at[0] !== dragged[0], "on the next slice");
+  assert.ok(wheeled[0] > dragged[0] && wheeled[0] < dragged[0] + spacing_mm[0] + 0.11, `from ${dragged[0]} to ${wheeled[0]} mm`);
   assert.deepEqual(wheeled.slice(1), dragged.slice(1));
   await slices.plane("Axial").focus();
   await page.keyboard.press("PageDown");
-  const paged = await slices.until((at) => at[2] !== wheeled[2], "ten planes down");
-  assert.ok(Math.abs(wheeled[2] - paged[2] - 10 * step) < 0.11);
+  const paged = await slices.until((at) => at[2] !== wheeled[2], "on the tenth slice below");
+  await page.keyboard.press("PageUp");
+  const back = await slices.until((at) => at[2] !== paged[2], "ten slices up");
+  assert.ok(Math.abs(back[2] - paged[2] - 10 * spacing_mm[2]) < 0.11, `from ${paged[2]} to ${back[2]} mm`);
   await page.getByRole("slider", { name: "Coronal slice" }).press("Home");
-  const home = await slices.until((at) => at[1] !== paged[1], "at the front");
-  assert.ok(home[1] < paged[1] - 10);
+  const home = await slices.until((at) => at[1] !== back[1], "at the front");
+  assert.ok(home[1] < back[1] - 10);
   assert.deepEqual((await slices.viewer.scene()).camera.azimuth_deg, 0, "the slices turn the view");
+});
+
+/** 10 slices of 8 mm from the patient's right (x = 0) to the left, 60 x 60 voxels of 1 mm each: 100 times their number. */
+function writeSagittal(file) {
+  const voxels = Uint16Array.from({ length: 60 * 60 * 10 }, (_, at) => 100 * Math.floor(at / 3600));
+  const header = "NRRD0004\ntype: uint16\ndimension: 3\nsizes: 60 60 10\nencoding: raw\nendian: little\nspace: left-posterior-superior\nspace directions: (0,1,0) (0,0,-1) (8,0,0)\nspace origin: (0,0,0)\n\n";
+  writeFileSync(file, Buffer.concat([Buffer.from(header), Buffer.from(voxels.buffer)]));
+  return file;
+}
+
+test("wheel, keys and slider go from one acquired slice to the next", async (t) => {
+  const slices = await openSlices(t, (folder) => [writeSagittal(join(folder, "sagittal.nrrd")), ...quick]);
+  const { page } = slices;
+  const inX = (mm) => slices.until((at) => at[0] === mm, `at ${mm} mm`);
+  const slider = (title) => page.getByRole("slider", { name: `${title} slice` });
+  assert.equal(await slider("Sagittal").getAttribute("max"), "9");
+  assert.equal(await slider("Coronal").getAttribute("max"), "59");
+  await inX(36);
+  await page.mouse.move(...(await slices.middle("Sagittal")));
+  await page.mouse.wheel(0, -100);
+  await inX(40);
+  await page.locator(".status-bar .value").filter({ hasText: /^500\b/ }).waitFor();
+  // Faster than they are drawn.
+  await slices.plane("Sagittal").evaluate((pane) => {
+    for (let i = 0; i < 3; ++i) pane.dispatchEvent(new WheelEvent("wheel", { deltaY: 100, bubbles: true, cancelable: true }));
+  });
+  await inX(16);
+  await slices.plane("Sagittal").focus();
+  await page.keyboard.press("ArrowUp");
+  await inX(24);
+  await page.keyboard.press("PageUp");
+  await inX(72);
+  await slider("Sagittal").press("ArrowLeft");
+  await inX(64);
+  await slider("Sagittal").press("Home");
+  await inX(0);
+  // From between two it is not far to the next.
+  const scale = await slices.scale("Axial");
+  const [x, y] = await slices.middle("Axial");
+  await page.mouse.click(x + 2 * scale, y);
+  const [between] = await slices.until((at) => at[0] > 36 && at[0] < 40, "between two slices");
+  assert.equal(await slider("Sagittal").inputValue(), "5", `at ${between} mm`);
+  await slices.plane("Sagittal").focus();
+  await page.keyboard.press("ArrowDown");
+  await inX(32);
 });
 
 test("a click in the picture takes the slices there, and both read the same value", async (t) => {
@@ -167,6 +213,36 @@ test("a click in the picture takes the slices there, and both read the same valu
     await page.waitForFunction((value) => parseFloat(document.querySelector(".slice-value b")?.innerText) === value, probed);
     assert.ok(Math.abs(probed - (1000 + 10 * at[0])) <= 1.1, `${probed} at ${at[0]} mm`);
   }
+});
+
+test("what is read is under the pointer, also when it rests and the slice moves", async (t) => {
+  const slices = await openSlices(t, [headCt, ...quick]);
+  const { page } = slices;
+  const position = page.locator(".status-bar .position");
+  const read = async () => (await position.innerText()).match(/[\d.]+/g).map(Number);
+  const until = async (pred, what) => {
+    for (let tries = 0; ; ++tries) {
+      const at = await read();
+      if (pred(at)) return at;
+      assert.ok(tries < 100, `${what}: ${at}`);
+      await page.waitForTimeout(30);
+    }
+  };
+  const [x, y] = await slices.middle("Axial");
+  await page.mouse.move(x + 60, y + 20);
+  await position.waitFor();
+  const first = await slices.at();
+  const start = await until((at) => at[2] === Math.abs(first[2]), "not in the axial plane");
+  await page.mouse.wheel(0, -100);
+  const [, , wheeled] = await slices.until((at) => at[2] !== first[2], "one slice on");
+  assert.deepEqual(await until((at) => at[2] === Math.abs(wheeled), "not in the next slice"), [start[0], start[1], Math.abs(wheeled)]);
+  await slices.plane("Axial").focus();
+  await page.keyboard.press("PageUp");
+  const [, , paged] = await slices.until((at) => at[2] !== wheeled, "ten slices on");
+  await until((at) => at[2] === Math.abs(paged), "not ten slices on");
+  // Nearer about the crosshair, in the pane's middle: it comes nearer to that.
+  await page.keyboard.press("+");
+  await until((at) => Math.abs(at[0] - start[0]) > 2, "not where it is seen now");
 });
 
 test("places are told by the patient's sides everywhere, and typed so", async (t) => {
@@ -445,7 +521,7 @@ test("distances are measured in the slices, by pointer and by keys, and are show
   });
   const { page, viewer } = slices;
   const voice = page.getByRole("status", { name: "Measuring" });
-  const at = await slices.at();
+  let at = await slices.at();
   const lines = async () => {
     const of = (title) => slices.plane(title).locator(".measurement").count();
     return [await of("Axial"), await of("Coronal"), await of("Sagittal"), await page.locator(".view .measurement").count()];
@@ -476,6 +552,8 @@ test("distances are measured in the slices, by pointer and by keys, and are show
   await untilLines([0, 1, 0, 1]);
   await page.keyboard.press("PageDown");
   await untilLines([1, 1, 0, 1]);
+  // From between two slices, back on the nearer one.
+  at = await slices.at();
 
   // From the crosshair up and down in the sagittal plane, by keys alone; that lies in the coronal plane, too.
   await slices.plane("Sagittal").focus();

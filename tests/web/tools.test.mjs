@@ -56,6 +56,33 @@ test("reads value and position under the pointer", async (t) => {
   await position.waitFor({ state: "detached" });
 });
 
+test("what is read is under the pointer, also when it rests and the picture moves", async (t) => {
+  const viewer = await openBall(t);
+  const { page } = viewer;
+  const position = page.locator(".status-bar .position");
+  await page.mouse.move(...(await placeOf(viewer, center_mm + 10, center_mm)));
+  await position.waitFor();
+  const read = async () => (await position.innerText()).match(/-?[\d.]+/g).map(Number);
+  const until = async (pred, what) => {
+    for (let tries = 0; ; ++tries) {
+      const at = await read();
+      if (pred(at)) return at;
+      assert.ok(tries < 200, `${what}: ${at}`);
+      await page.waitForTimeout(30);
+    }
+  };
+  const depth = Math.sqrt(radius_mm ** 2 - 10 ** 2);
+  await until(([x, y]) => Math.abs(x - center_mm - 10) < 0.5 && Math.abs(y - center_mm + depth) < 1, "not on the front");
+  await page.keyboard.press("2");
+  await until(([x, y]) => Math.abs(x - center_mm + 10) < 0.5 && Math.abs(y - center_mm - depth) < 1, "not on the back");
+  await page.mouse.wheel(0, -400);
+  await until(([x]) => x > center_mm - 9 && x < center_mm - 2, "not nearer to the middle");
+  // A drag ends where the pointer then rests.
+  const [x, y] = await placeOf(viewer, center_mm, center_mm);
+  await viewer.drag([60, 0], { from: [x, y] });
+  await position.waitFor();
+});
+
 test("measures a distance that is known, and its end can be moved", async (t) => {
   const viewer = await openBall(t);
   await viewer.page.keyboard.press("m");
@@ -84,6 +111,42 @@ test("measures a distance that is known, and its end can be moved", async (t) =>
   await viewer.button("Done").click();
   await viewer.page.getByText("Click two points").waitFor({ state: "detached" });
   assert.deepEqual((await viewer.scene()).camera, scene.camera, "measuring has moved the camera");
+});
+
+test("a click at the end of a distance leaves it, and begins another where distances are measured", async (t) => {
+  const viewer = await openBall(t);
+  const { page } = viewer;
+  const voice = page.getByRole("status", { name: "Measuring" });
+  const first = voice.filter({ hasText: /^First end at/ });
+  await page.keyboard.press("m");
+  await page.mouse.click(...(await placeOf(viewer, center_mm - 10, center_mm)));
+  await first.waitFor();
+  await page.mouse.click(...(await placeOf(viewer, center_mm + 10, center_mm)));
+  const length = page.locator(".measurement .tag-text");
+  await length.waitFor();
+  const [second, beside] = [page.getByRole("button", { name: /^Second end of the distance/ }), 9];
+  const place = () => second.evaluate((handle) => handle.getAttribute("transform").match(/[-\d.]+/g).map(Number));
+  const [text, before] = [await length.textContent(), await place()];
+  const box = await viewer.canvas.boundingBox();
+  const [x, y] = [box.x + before[0] - beside, box.y + before[1]];
+  await page.mouse.click(x, y);
+  await first.waitFor();
+  assert.deepEqual([await length.textContent(), await place()], [text, before], "the click has moved the end");
+  await page.keyboard.press("Escape");
+  await voice.filter({ hasText: "First end dropped" }).waitFor();
+  await page.keyboard.press("Escape");
+  await page.getByText("Click two points").waitFor({ state: "detached" });
+  await page.mouse.click(x, y);
+  await page.mouse.move(x + 1, y + 1);
+  await page.waitForTimeout(300);
+  assert.deepEqual([await length.textContent(), await place()], [text, before], "the click has moved the end");
+  assert.equal(await page.locator(".measurements > .dot").count(), 0, "a distance is begun");
+  // Taken beside its middle, it still goes as far as the pointer.
+  await viewer.drag([-50, 20], { from: [x, y] });
+  await page.waitForFunction(([left, top]) => {
+    const at = document.querySelectorAll(".measurement .end")[1].getAttribute("transform").match(/[-\d.]+/g);
+    return Math.hypot(at[0] - left, at[1] - top) < 0.5;
+  }, [before[0] - 50, before[1] + 20]);
 });
 
 test("the ends of a distance are moved by keys, and it is deleted from them", async (t) => {

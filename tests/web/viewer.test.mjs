@@ -101,6 +101,50 @@ test("presets and points of the transfer function change the picture", async (t)
   assert.ok(bone);
 });
 
+test("Delete removes the point of the curve that is chosen", async (t) => {
+  const viewer = await open(t, [headCt, "--preset", "ct-bone", ...quick]);
+  const { page } = viewer;
+  await viewer.panel("Transfer function");
+  const points = async () => (await viewer.scene()).transfer.points;
+  const values = async () => (await points()).map(({ value }) => value);
+  const until = async (wanted, what) => {
+    const text = JSON.stringify(wanted);
+    return viewer.sceneWith((s) => JSON.stringify(s.transfer.points.map(({ value }) => value)) === text, what);
+  };
+  const middle = async (locator) => {
+    const box = await locator.boundingBox();
+    return [box.x + box.width / 2, box.y + box.height / 2];
+  };
+  const first = await values();
+  const dot = (number) => page.getByLabel(new RegExp(`^Point ${number} of`));
+  // Chosen beside its dot, while another one has the focus.
+  await dot(2).focus();
+  const [x, y] = await middle(dot(3));
+  await page.mouse.click(x + 8, y);
+  await page.keyboard.press("Delete");
+  await until(first.filter((_, i) => i !== 2), "the third point removed");
+  await viewer.undo();
+  await until(first, "all points");
+  // Added before one that has the focus, and with the focus elsewhere.
+  for (const [name, focus] of [["a point", () => dot(first.length).focus()], ["a field", () => page.getByLabel("Value of the point").focus()]]) {
+    await focus();
+    const graph = await page.getByRole("group", { name: /^Opacity over the data's values/ }).boundingBox();
+    await page.mouse.dblclick(graph.x + 30, graph.y + 40);
+    const added = (await viewer.sceneWith((s) => s.transfer.points.length === first.length + 1, "a further point")).transfer.points;
+    const value = added.map((p) => p.value).find((v) => !first.includes(v));
+    assert.ok(value < first.at(-1), "the point was to come before the last");
+    await page.getByRole("button", { name: /^Point/, pressed: true }).and(page.locator(":focus")).waitFor();
+    await page.keyboard.press("Delete");
+    await until(first, `the points without the one added while ${name} had the focus`);
+  }
+  // The last one: the one before is next.
+  await dot(first.length).focus();
+  await page.keyboard.press("Delete");
+  await until(first.slice(0, -1), "the last point removed");
+  await page.keyboard.press("Delete");
+  await until(first.slice(0, -2), "the one before it removed");
+});
+
 test("clips by handles, and saves, loads and keeps the scene", async (t) => {
   const viewer = await open(t, [headCt, ...quick]);
   await viewer.done();

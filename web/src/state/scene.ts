@@ -48,7 +48,8 @@ let sentAt_ms = 0;
 /** At most about 100 messages a second: one per animation frame of most screens, half of what the server takes. */
 const kInterval_ms = 10;
 
-function flush(): void {
+/** Sends what waits to be sent as one with later edits: before the page goes. */
+export function flushEdits(): void {
   clearTimeout(timer);
   timer = undefined;
   if (!queued) return;
@@ -61,8 +62,8 @@ function flush(): void {
 function flushSoon(): void {
   if (timer !== undefined) return;
   const wait_ms = Math.max(0, kInterval_ms - (performance.now() - sentAt_ms));
-  if (wait_ms <= 0) flush();
-  else timer = setTimeout(flush, wait_ms);
+  if (wait_ms <= 0) flushEdits();
+  else timer = setTimeout(flushEdits, wait_ms);
 }
 
 /** Sets fields of the scene by JSON pointer, null removes: shown at once, sent, and taken back if the server refuses.
@@ -75,33 +76,33 @@ export function edit(set: readonly Assignment[], gesture?: string): void {
     queued = { ...queued, set: edits.merged(queued.set, set) };
     state.value = { ...before, pending: [...before.pending.slice(0, -1), queued] };
   } else {
-    flush();
+    flushEdits();
     queued = { seq: ++lastSeq, set, gesture };
     state.value = { ...before, pending: [...before.pending, queued] };
   }
   if (gesture) flushSoon();
-  else flush();
+  else flushEdits();
 }
 
 export function undo(): void {
-  flush();
+  flushEdits();
   send({ type: "undo" });
 }
 
 export function redo(): void {
-  flush();
+  flushEdits();
   send({ type: "redo" });
 }
 
 /** Another scene in place of this one: a whole scene file's JSON. */
 export function loadScene(other: unknown): void {
-  flush();
+  flushEdits();
   send({ type: "load", scene: other });
 }
 
 /** Opens a volume or scene file: a path of api/files, of an upload or of a sample. */
 export function openPath(path: string): void {
-  flush();
+  flushEdits();
   send({ type: "open", path });
 }
 

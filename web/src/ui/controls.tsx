@@ -1,5 +1,5 @@
 import type { ComponentChildren } from "preact";
-import { useId, useRef, useState } from "preact/hooks";
+import { useId, useLayoutEffect, useRef, useState } from "preact/hooks";
 import { formatCoordinate, parseCoordinate, type Axis } from "../geometry/orientation";
 import { newGesture } from "../state/scene";
 import { Icon, type IconName } from "./icons";
@@ -44,11 +44,20 @@ function textOf({ value, axis, digits = 2 }: NumberProps): string {
   return axis === undefined ? String(Number(value.toFixed(digits))) : formatCoordinate(axis, value);
 }
 
+const isWhollySelected = (input: HTMLInputElement) =>
+  input === document.activeElement && input.selectionStart === 0 && input.selectionEnd === input.value.length;
+
 /** A number to type; Enter or leaving takes it, Escape does not, arrow keys step (Shift: ten steps). */
 export function NumberInput(props: NumberProps) {
   const [draft, setDraft] = useState<string | null>(null);
   const gesture = useRef("");
   const text = textOf(props);
+  const field = useRef<HTMLInputElement>(null);
+  // A number that changes by itself stays selected as a whole: what is typed replaces it.
+  const whole = field.current !== null && isWhollySelected(field.current);
+  useLayoutEffect(() => {
+    if (whole && field.current === document.activeElement) field.current!.select();
+  }, [text]);
   const take = (typed: string) => {
     setDraft(null);
     const value = props.axis === undefined ? Number(typed.replace(",", ".")) : parseCoordinate(props.axis, typed);
@@ -72,6 +81,7 @@ export function NumberInput(props: NumberProps) {
   return (
     <span class="number">
       <input
+        ref={field}
         id={props.id}
         type="text"
         inputMode={props.axis === undefined ? "decimal" : "text"}

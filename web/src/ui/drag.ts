@@ -10,8 +10,13 @@ export interface Drag {
   event: PointerEvent;
 }
 
+/** A pointer that goes down and up and less far in between has clicked [CSS px]. */
+export const kClick_px = 4;
+
 export interface DragHandlers {
   move(drag: Drag): void;
+  /** Instead of all others where the pointer only clicks: they are called from its first move that is too far. */
+  click?(drag: Drag): void;
   /** Pointer up, or the drag was broken off. */
   end?(drag: Drag): void;
 }
@@ -27,6 +32,7 @@ export function startDrag(down: PointerEvent, handlers: DragHandlers, buttons: r
   if (element instanceof HTMLElement || element instanceof SVGElement) element.focus({ preventScroll: true });
   let lastX = down.clientX;
   let lastY = down.clientY;
+  let clicks = handlers.click !== undefined;
   const drag = (event: PointerEvent): Drag => {
     const out = {
       dx: event.clientX - down.clientX,
@@ -41,7 +47,9 @@ export function startDrag(down: PointerEvent, handlers: DragHandlers, buttons: r
   };
   const move = (event: Event) => {
     const pointer = event as PointerEvent;
-    if (pointer.pointerId === down.pointerId) handlers.move(drag(pointer));
+    if (pointer.pointerId !== down.pointerId) return;
+    if (Math.hypot(pointer.clientX - down.clientX, pointer.clientY - down.clientY) >= kClick_px) clicks = false;
+    if (!clicks) handlers.move(drag(pointer));
   };
   const letGo = () => {
     element.removeEventListener("pointermove", move);
@@ -52,7 +60,8 @@ export function startDrag(down: PointerEvent, handlers: DragHandlers, buttons: r
     const pointer = event as PointerEvent;
     if (pointer.pointerId !== down.pointerId) return;
     letGo();
-    handlers.end?.(drag(pointer));
+    if (!clicks) handlers.end?.(drag(pointer));
+    else if (event.type === "pointerup") handlers.click?.(drag(pointer));
   };
   element.addEventListener("pointermove", move);
   element.addEventListener("pointerup", end);

@@ -26,6 +26,8 @@ export interface MeasuringPane {
   place(p: Vec3): { x: number; y: number } | null;
   /** What there is to be probed at a place of the pane. */
   at(x: number, y: number): Place;
+  /** The same for as long as a pointer rests there: reads signals of what the pane shows. */
+  under(x: number, y: number): () => Place;
 }
 
 export const measurements = signal<readonly Measurement[]>([]);

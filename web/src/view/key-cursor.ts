@@ -39,7 +39,7 @@ export function moveKeyCursor(pane: MeasuringPane, dx: number, dy: number): void
   const y = clamp(from.y + dy, pane.height);
   cursor.value = { pane: pane.name, x, y };
   moving = true;
-  pointAt(pane.at(x, y));
+  pointAt(pane.under(x, y));
 }
 
 /** Sets an end at the cursor; where there is none yet, it appears. */

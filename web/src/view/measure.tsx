@@ -1,6 +1,6 @@
 import type { ComponentChildren } from "preact";
 import { Icon } from "../ui/icons";
-import { startDrag } from "../ui/drag";
+import { startDrag, type Drag } from "../ui/drag";
 import type { Vec3 } from "../geometry/vec3";
 import {
   begun,
@@ -10,6 +10,7 @@ import {
   moveEnd,
   removeMeasurement,
   said,
+  setEnd,
   stepEnd,
   type Measurement,
   type MeasuringPane,
@@ -34,6 +35,7 @@ export function picturePane(): MeasuringPane {
       return seen && seen.depth_mm > 0 ? seen : null;
     },
     at: (x, y) => ({ x, y }),
+    under: (x, y) => () => ({ x, y }),
   };
 }
 
@@ -76,14 +78,19 @@ function End({ pane, of, end }: { pane: MeasuringPane; of: Measurement; end: "a"
   let busy = false;
   const press = (event: PointerEvent) => {
     const area = (event.currentTarget as Element).closest(".view, .slice")!.getBoundingClientRect();
-    const follow = (at: PointerEvent) => moveEnd(of.id, end, pane, at.clientX - area.left, at.clientY - area.top);
+    // Wherever the handle was taken, the end goes by what the pointer goes.
+    const follow = ({ dx, dy }: Drag) => moveEnd(of.id, end, pane, p.x + dx, p.y + dy);
     startDrag(event, {
-      move: ({ event: at }) => {
+      move: (drag) => {
         if (busy) return;
         busy = true;
-        void follow(at).finally(() => (busy = false));
+        void follow(drag).finally(() => (busy = false));
       },
-      end: ({ event: at }) => void follow(at),
+      end: (drag) => void follow(drag),
+      // Clicks are ends of new distances, here too.
+      click: ({ event: at }) => {
+        if (measuring.peek()) void setEnd(pane, at.clientX - area.left, at.clientY - area.top);
+      },
     });
   };
   const keyDown = (event: KeyboardEvent) => {

@@ -1,4 +1,5 @@
 import { newGesture } from "../state/scene";
+import { kClick_px } from "../ui/drag";
 import { orbitByPixels, panByPixels, rollBy, zoomBy } from "./camera-control";
 
 /** Drags, wheel and touches on the view move the camera: one finger or the left button orbits; two fingers, the right
@@ -15,7 +16,6 @@ interface Touch {
   y: number;
 }
 
-const kClick_px = 4;
 const kDoubleClick_ms = 350;
 const kWheelRest_ms = 400;
 

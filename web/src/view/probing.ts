@@ -1,5 +1,6 @@
-import { signal, type ReadonlySignal } from "@preact/signals";
+import { computed, effect, signal, type ReadonlySignal } from "@preact/signals";
 import type { Vec3 } from "../geometry/vec3";
+import { frame } from "../state/frame";
 import type { Probe, ProbedPlace } from "../state/protocol";
 import { probe } from "../state/session";
 import { view } from "./overlay";
@@ -31,22 +32,36 @@ const underPointer = signal<Probe | null>(null);
 export const pointed: ReadonlySignal<Probe | null> = underPointer;
 
 const kPause_ms = 60;
-/** Where the pointer is; null: nowhere. */
-let current: Place | null = null;
+const pointer = signal<(() => Place) | null>(null);
+/** Where it is now; another object whenever something else may be there. Null: nowhere. */
+let current: { place: Place } | null = null;
 let asking = false;
 
-/** The pointer is here: asked one at a time, and of the places meanwhile only the last. */
-export function pointAt(place: Place | null): void {
-  current = place;
-  if (!place) underPointer.value = null;
-  if (!asking && place) void ask();
+/** The pointer is there; `place` may read signals, and is asked for anew when they change. Null: it is nowhere. */
+export function pointAt(place: (() => Place) | null): void {
+  pointer.value = place;
 }
+
+/** Changes with what the picture shows, not while that is only refined. */
+const pictured = computed(() => {
+  const header = frame.value?.header;
+  return header ? `${header.revision} ${header.moving}` : "";
+});
+
+// What is there is read one at a time, and of the places meanwhile only the last.
+effect(() => {
+  const place = pointer.value?.();
+  if (place && "x" in place) void pictured.value;
+  current = place ? { place } : null;
+  if (!place) underPointer.value = null;
+  else if (!asking) void ask();
+});
 
 async function ask(): Promise<void> {
   asking = true;
-  for (let asked: Place | null = null; current && current !== asked; ) {
+  for (let asked: typeof current = null; current && current !== asked; ) {
     asked = current;
-    const answer = await probeAt(asked);
+    const answer = await probeAt(asked.place);
     // It may have left meanwhile.
     if (current) underPointer.value = answer;
     await new Promise((resolve) => setTimeout(resolve, kPause_ms));

@@ -38,7 +38,7 @@ export function View() {
       click: async (x, y) => {
         const at = inArea(x, y);
         if (measuring.peek()) return void setEnd(picturePane(), at.x, at.y);
-        pointAt(at);
+        pointAt(() => at);
         if (layout.peek() !== "slices") return;
         const place = (await probeAt(at))?.position_mm;
         if (place) setCrosshair(place);
@@ -53,16 +53,21 @@ export function View() {
     const hover = (event: PointerEvent) => {
       const over = event.target instanceof Element && event.target.closest(".floating");
       if (event.movementX || event.movementY) hideKeyCursor();
-      pointAt(event.buttons === 0 && !over ? inArea(event.clientX, event.clientY) : null);
+      const at = inArea(event.clientX, event.clientY);
+      pointAt(event.buttons === 0 && !over ? () => at : null);
     };
+    // After a drag it rests where it is let go.
+    const rest = (event: PointerEvent) => event.pointerType === "mouse" && hover(event);
     const leave = () => pointAt(null);
     element.addEventListener("pointermove", hover);
+    element.addEventListener("pointerup", rest);
     element.addEventListener("pointerleave", leave);
     const stopFollowing = followViewSize();
     return () => {
       observer.disconnect();
       detach();
       element.removeEventListener("pointermove", hover);
+      element.removeEventListener("pointerup", rest);
       element.removeEventListener("pointerleave", leave);
       stopFollowing();
     };

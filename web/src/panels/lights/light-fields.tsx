@@ -62,7 +62,7 @@ export function LightFields({ light, index }: { light: Light; index: number }) {
           { value: "world", label: "World", hint: "Stands still when you turn the view" },
           { value: "camera", label: "Camera", hint: "Turns with the view" },
         ]}
-        onChange={(to) => edit([[at, reattached(light, to, target)]])}
+        onChange={(to) => edit([[at, reattached(scene.peek()!.lights![index]!, to, target)]])}
       />
       <LightNumber
         of={place}

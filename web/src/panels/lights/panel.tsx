@@ -61,6 +61,10 @@ function LightList({ of }: { of: Scene }) {
     edit([["/lights/-", added]]);
     selectedLight.value = lights.length;
   };
+  const duplicate = () => {
+    stopMotion();
+    append(scene.peek()!.lights![index!]!);
+  };
   const remove = () => {
     stopMotion();
     edit([[`/lights/${index}`, null]]);
@@ -68,7 +72,7 @@ function LightList({ of }: { of: Scene }) {
   };
   const actions = light && (
     <>
-      <IconButton icon="copy" label="Duplicate the light" onClick={() => append(light)} />
+      <IconButton icon="copy" label="Duplicate the light" onClick={duplicate} />
       <IconButton icon="delete" label="Remove the light" onClick={remove} />
     </>
   );
@@ -101,7 +105,7 @@ function LightList({ of }: { of: Scene }) {
       {light && index !== null && (
         <>
           <LightFields key={index} light={light} index={index} />
-          <MotionFields of={of} light={light} index={index} />
+          <MotionFields of={of} index={index} />
         </>
       )}
     </Section>
@@ -109,14 +113,15 @@ function LightList({ of }: { of: Scene }) {
 }
 
 /** Motion by itself: rotate and flash. */
-function MotionFields({ of, light, index }: { of: Scene; light: Light; index: number }) {
+function MotionFields({ of, index }: { of: Scene; index: number }) {
   const now = moving.value?.light === index ? moving.value.motion : null;
   const toggle = (motion: Motion) => (on: boolean) => (on ? void startMotion(motion, index) : stopMotion());
   const write = (motion: Motion) => {
     const target = of.camera.target_mm ?? [0, 0, 0];
+    stopMotion();
+    const light = scene.peek()!.lights![index]!;
     const track =
       motion === "orbit" ? orbitTrack(light, index, target, period.value) : flashTrack(light, index, period.value);
-    stopMotion();
     edit([["/animation", withTracksOf(of.animation, [track])]]);
     showToast({ text: `The motion is in the animation: ${period.value} s` });
   };
@@ -130,7 +135,7 @@ function MotionFields({ of, light, index }: { of: Scene; light: Light; index: nu
       />
       <Toggle
         label="Flash"
-        hint="The intensity goes down and up again"
+        hint="The intensity goes down and up again, until you set another"
         value={now === "flash"}
         onChange={toggle("flash")}
       />

@@ -18,6 +18,7 @@ import { isDiscreteKind, isStepKind, sampleRule } from "../../model/rules";
 import { newGesture } from "../../state/scene";
 import type { Rule, TransferPoint } from "../../state/scene-types";
 import { startDrag } from "../../ui/drag";
+import { useItemFocus } from "../../ui/item-focus";
 import { useWidth } from "../../ui/use-width";
 import type { Domain } from "./domain";
 
@@ -53,6 +54,7 @@ export function CurveEditor(props: CurveEditorProps) {
   const gradient = useId();
   const keyGesture = useRef("");
   const [shifting, setShifting] = useState(false);
+  const focusPoint = useItemFocus(root, ".dot", points.length);
 
   const limits: Span = points.reduce(
     (all, p) => ({ lo: Math.min(all.lo, p.value), hi: Math.max(all.hi, p.value) }),
@@ -87,6 +89,8 @@ export function CurveEditor(props: CurveEditorProps) {
 
   const dragPoint = (event: PointerEvent, index: number) => {
     if (event.shiftKey) return dragAll(event);
+    // Keys mean the point that is chosen, also where it was taken beside its dot.
+    (event.currentTarget as Element).parentElement!.querySelector<SVGElement>(".dot")!.focus({ preventScroll: true });
     props.onSelect(index);
     const gesture = newGesture("point");
     const from = points[index]!;
@@ -124,6 +128,7 @@ export function CurveEditor(props: CurveEditorProps) {
     const top = root.current!.getBoundingClientRect().top;
     const added = addPoint(points, valueAt(event), opacityAtPixel(event.clientY - top), referenceMm);
     if (kind !== "cctf" && points.some((p) => p.value === added.points[added.selected]!.value)) return;
+    focusPoint(added.selected);
     change(added.points, newGesture("add-point"));
     props.onSelect(added.selected);
   };
@@ -132,6 +137,7 @@ export function CurveEditor(props: CurveEditorProps) {
     const upward = { ArrowUp: 1, ArrowDown: -1 }[event.key];
     if (event.key === "Delete" || event.key === "Backspace") {
       const left = removePoint(points, index);
+      focusPoint(left.selected);
       change(left.points, newGesture("delete-point"));
       props.onSelect(left.selected);
     } else if (sideways || upward) {

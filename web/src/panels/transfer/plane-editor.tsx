@@ -8,6 +8,7 @@ import { newGesture } from "../../state/scene";
 import type { Rule, RuleColumn } from "../../state/scene-types";
 import type { JointHistogram } from "../../state/volume";
 import { startDrag } from "../../ui/drag";
+import { useItemFocus } from "../../ui/item-focus";
 import { useWidth } from "../../ui/use-width";
 import { useJointHistogram, type Domain } from "./domain";
 
@@ -39,6 +40,7 @@ export function PlaneEditor(props: {
   const width = useWidth(frame, 292);
   const keyGesture = useRef("");
   const { columns } = rule;
+  const focusColumn = useItemFocus(frame, ".column .hit", columns.length);
   const discrete = rule.column_form === "points";
   const limits: Span = columns.reduce(
     (all, column) => ({ lo: Math.min(all.lo, column.at), hi: Math.max(all.hi, column.at) }),
@@ -64,6 +66,7 @@ export function PlaneEditor(props: {
   const add = (event: MouseEvent) => {
     const pixel = event.clientY - frame.current!.getBoundingClientRect().top;
     const added = addColumn(columns, atPixel(pixel));
+    focusColumn(added.selected);
     props.onChange(added.columns, newGesture("add-column"));
     props.onSelect(added.selected);
   };
@@ -78,6 +81,7 @@ export function PlaneEditor(props: {
   const keyDown = (event: KeyboardEvent, index: number) => {
     const upward = { ArrowUp: 1, ArrowDown: -1 }[event.key];
     if (event.key === "Delete" && columns.length > 1) {
+      focusColumn(Math.max(0, index - 1));
       props.onChange(
         columns.filter((_, i) => i !== index),
         newGesture("delete-column"),
