@@ -1,8 +1,9 @@
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
-import { formatCoordinate } from "../geometry/orientation";
+import { formatPlace } from "../geometry/length";
 import { planes, type Plane, type Size } from "../model/slice";
 import { crosshair } from "../state/crosshair";
 import { labelPaintings } from "../state/label-colors";
+import { lengthScale } from "../state/lengths";
 import { volume } from "../state/volume";
 import { measuring } from "../view/distances";
 import { pointAt } from "../view/probing";
@@ -51,7 +52,7 @@ export function SliceView({ plane, overlay }: { plane: Plane; overlay: string })
   const step = sliceStep_mm(facts);
   const input = sliceInput(plane, pane, mm, facts, fingers);
   const { letters } = layout;
-  const place = `${formatCoordinate(layout.normal, mm)} mm`;
+  const place = formatPlace(layout.normal, mm, lengthScale.value);
   return (
     <div
       ref={root}

@@ -1,10 +1,11 @@
 import { useEffect, useMemo, useState } from "preact/hooks";
-import { formatPosition } from "../geometry/orientation";
+import { formatPosition } from "../geometry/length";
 import { formatValue } from "../model/axis";
 import { titleOf } from "../model/label-rules";
 import { newestWins } from "../model/latest";
 import { ctWindows } from "../model/window";
 import { crosshair, setCrosshair } from "../state/crosshair";
+import { lengthScale } from "../state/lengths";
 import type { Probe } from "../state/protocol";
 import type { Vec3 } from "../state/scene-types";
 import { labels, volume } from "../state/volume";
@@ -120,7 +121,7 @@ export function SliceBar() {
         onClick={resetSlices}
       />
       <span class="slice-position" aria-live="off">
-        {formatPosition(at)}
+        {formatPosition(at, lengthScale.value)}
       </span>
       {under?.value != null && (
         <span class="slice-value">

@@ -1,7 +1,9 @@
-import { formatCoordinate, type Axis } from "../geometry/orientation";
+import { formatPlace } from "../geometry/length";
+import type { Axis } from "../geometry/orientation";
 import { nearestOnLine } from "../geometry/projection";
 import { add, scale, type Vec3 } from "../geometry/vec3";
 import type { Clip, Faces } from "../state/scene-types";
+import { lengthScale } from "../state/lengths";
 import { edit, newGesture, scene, section } from "../state/scene";
 import { volume } from "../state/volume";
 import { clipHandles } from "../state/tools";
@@ -89,6 +91,7 @@ function Face({ shown, box, axis, side }: FaceProps) {
     setSide(axis, side, at + way * 0.01 * (bounds[1][axis]! - bounds[0][axis]!), newGesture("clip-keys"));
   };
   const name = sideNames[axis]![side];
+  const place = formatPlace(axis, at, lengthScale.value);
   return (
     <g class={`clip-face axis-${axis}${cut ? " cut" : ""}`}>
       {corners.every((corner) => corner.depth_mm > 0) && (
@@ -99,14 +102,14 @@ function Face({ shown, box, axis, side }: FaceProps) {
         role="slider"
         tabindex={0}
         aria-label={`Clip from the ${name}`}
-        aria-valuenow={Math.round(at)}
-        aria-valuetext={`${formatCoordinate(axis, at)} mm`}
+        aria-valuenow={Number(at.toPrecision(6))}
+        aria-valuetext={place}
         transform={`translate(${seen.x} ${seen.y})`}
         onPointerDown={press}
         onKeyDown={keyDown}
         onDblClick={() => setSide(axis, side, null, newGesture("clip"))}
       >
-        <title>{`Clip from the ${name}: ${formatCoordinate(axis, at)} mm. Double click opens it`}</title>
+        <title>{`Clip from the ${name}: ${place}. Double click opens it`}</title>
         <circle class="reach" r={16} />
         <circle class="knob" r={6.5} />
       </g>

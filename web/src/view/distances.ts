@@ -1,7 +1,8 @@
 import { computed, signal, type ReadonlySignal } from "@preact/signals";
-import { formatPosition } from "../geometry/orientation";
+import { formatDistance, formatPosition } from "../geometry/length";
 import { distance, type Vec3 } from "../geometry/vec3";
 import { on } from "../state/connection";
+import { lengthScale } from "../state/lengths";
 import { pointerTool } from "../state/tools";
 import { showToast } from "../ui/toast";
 import { probeAt, type Place } from "./probing";
@@ -91,10 +92,7 @@ export function cancelMeasuring(): void {
   else pointerTool.value = "navigate";
 }
 
-export const lengthOf = ({ a, b }: { a: Vec3; b: Vec3 }): string => {
-  const mm = distance(a, b);
-  return `${mm >= 100 ? mm.toFixed(0) : mm.toFixed(1)} mm`;
-};
+export const lengthOf = ({ a, b }: { a: Vec3; b: Vec3 }): string => formatDistance(distance(a, b), lengthScale.value);
 
 const probed = async (pane: MeasuringPane, x: number, y: number) => (await probeAt(pane.at(x, y)))?.position_mm;
 
@@ -104,7 +102,7 @@ export async function setEnd(pane: MeasuringPane, x: number, y: number): Promise
   if (!place) return showToast({ text: "Nothing there to measure: choose a point of the volume." });
   if (!first.value) {
     first.value = place;
-    say(`First end at ${formatPosition(place)}`);
+    say(`First end at ${formatPosition(place, lengthScale.peek())}`);
     return;
   }
   const added = { id: ++count, a: first.value, b: place };
