@@ -10,7 +10,7 @@ import {
   type Size,
   type Framing,
 } from "../model/slice";
-import { ctWindows, percentileWindow, type Window } from "../model/window";
+import { automaticWindow, ctWindows, type Window } from "../model/window";
 import { keptOfVolumes } from "../state/kept";
 import type { Vec3 } from "../state/scene-types";
 import { volume } from "../state/volume";
@@ -19,11 +19,11 @@ import { volume } from "../state/volume";
 
 const chosenWindow = keptOfVolumes<Window>("window");
 
-/** The window that a volume starts with: soft tissue for CT, else nearly all values. */
+/** The window that a volume starts with: soft tissue for CT, else what suits the values. */
 export const initialWindow: ReadonlySignal<Window> = computed(() => {
   const facts = volume.value;
   if (!facts) return { level: 0, width: 1 };
-  return facts.hounsfield ? ctWindows[0]!.window : percentileWindow(facts.percentiles, facts.range);
+  return facts.hounsfield ? ctWindows[0]!.window : automaticWindow(facts);
 });
 
 /** Values shown from black to white. */
