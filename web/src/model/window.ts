@@ -70,6 +70,11 @@ function foregroundStart(counts: readonly number[]): number {
   return start;
 }
 
+/** Digits after the point that tell a thousandth of a window, at least one. */
+export function windowDigits({ width }: Window): number {
+  return Math.min(20, Math.max(1, Math.ceil(-Math.log10(width / 1000))));
+}
+
 /** A drag of `dx`, `dy` pixels (y downward): to the right widens, upward brightens; `extent` is that of the data's values. */
 export function dragWindow(from: Window, dx: number, dy: number, extent: number): Window {
   const perPixel = Math.max(from.width, extent / 200) / 250;

@@ -79,7 +79,7 @@ export function OpeningScreen() {
   return (
     <div class="opening floating">
       <div class="opening-inner">
-        <h1>Open a volume</h1>
+        <h2>Open a volume</h2>
         <p class="lead">
           CT, MRI, microscopy or simulation data: NRRD, NIfTI, MetaImage, DICOM folders, TIFF, VTK, HDF5, OpenVDB.
         </p>

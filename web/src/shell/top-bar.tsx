@@ -54,10 +54,10 @@ export function TopBar() {
   const none = !scene.value;
   return (
     <header class="top-bar">
-      <span class="brand">
+      <h1 class="brand">
         <Icon name="volume" size={18} />
         voxlume
-      </span>
+      </h1>
       <Button icon="folder" title="Open a volume or scene (Ctrl+O)" onClick={() => (openDialog.value = true)}>
         Open
       </Button>

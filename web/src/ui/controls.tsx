@@ -41,6 +41,9 @@ export interface NumberProps {
 
 const clamp = (x: number, min = -Infinity, max = Infinity) => Math.min(max, Math.max(min, x));
 
+/** From here on single units are not written. */
+const kTooLong = 1e15;
+
 const isLength = ({ unit, axis }: NumberProps) => unit === "mm" || axis !== undefined;
 
 /** As the page writes it; empty where it is not finite. */
@@ -48,6 +51,7 @@ function textOf(props: NumberProps): string {
   const { value, axis, digits = 2 } = props;
   if (!Number.isFinite(value)) return "";
   if (axis !== undefined) return formatCoordinate(axis, value, typedScale.value);
+  if (Math.abs(value) >= kTooLong) return String(Number(value.toPrecision(5)));
   return String(Number(value.toFixed(isLength(props) ? Math.max(digits, typedScale.value.digits) : digits)));
 }
 
@@ -89,6 +93,7 @@ export function NumberInput(props: NumberProps) {
         aria-label={props.label ? (props.unit ? `${props.label} [${props.unit}]` : props.label) : undefined}
         disabled={props.disabled}
         value={draft ?? text}
+        style={{ "--letters": (draft ?? text).length }}
         onFocus={(event) => event.currentTarget.select()}
         onInput={(event) => setDraft(event.currentTarget.value)}
         onBlur={(event) => draft !== null && take(event.currentTarget.value)}
