@@ -60,6 +60,11 @@ for (const { name, voxel_mm, unit, unit_mm } of [
     const is = (mm, wanted) => Math.abs(mm - wanted) < 1e-6 * wanted;
     await viewer.sceneWith((s) => is(s.clip.x_mm[1], 30.25 * voxel_mm), "the side that was typed");
     assert.ok(Math.abs(number(await left.inputValue()) - 30.25 * voxel_mm) < voxel_mm / 4, await left.inputValue());
+    for (const name of ["Left", "Right", "Superior"]) {
+      const field = page.getByRole("textbox", { name: `${name} [mm]` });
+      const [whole, seen] = await field.evaluate((input) => [input.scrollWidth, input.clientWidth]);
+      assert.ok(whole <= seen, `${name}: ${seen} of ${whole} px are seen`);
+    }
     await left.press("ArrowDown");
     await viewer.sceneWith((s) => is(s.clip.x_mm[1], 29.25 * voxel_mm), "a side that is a voxel less");
     // Up to its other side, and no farther.

@@ -93,7 +93,7 @@ export function NumberInput(props: NumberProps) {
         aria-label={props.label ? (props.unit ? `${props.label} [${props.unit}]` : props.label) : undefined}
         disabled={props.disabled}
         value={draft ?? text}
-        style={{ "--letters": (draft ?? text).length }}
+        style={{ "--letters": text.length }}
         onFocus={(event) => event.currentTarget.select()}
         onInput={(event) => setDraft(event.currentTarget.value)}
         onBlur={(event) => draft !== null && take(event.currentTarget.value)}
