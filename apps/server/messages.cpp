@@ -94,10 +94,9 @@ LoadMessage read_load(const json& message) {
 }
 
 Vec3d position(const json& value, const std::string& where) {
-  constexpr double kMost_mm = 1e6;
   if (!value.is_array() || value.size() != 3) refuse(where, "expected three numbers");
   const auto coordinate = [&](std::size_t i) {
-    return number(value[i], where + "/" + std::to_string(i), -kMost_mm, kMost_mm);
+    return number(value[i], where + "/" + std::to_string(i), -kLargestNumber, kLargestNumber);
   };
   return {coordinate(0), coordinate(1), coordinate(2)};
 }

@@ -71,6 +71,7 @@ TEST(Messages, OfWrongShapeAreRefusedInOneLine) {
            R"({"type":"probe","id":1,"x":1e999,"y":0})",
            R"({"type":"probe","id":1,"position_mm":[1,2]})",
            R"({"type":"probe","id":1,"position_mm":[1,2,"3"]})",
+           R"({"type":"probe","id":1,"position_mm":[1,2,1.1e12]})",
            R"({"type":"probe","id":1,"position_mm":[1,2,1e999]})",
            R"({"type":"shown","frame":-1})",
            R"({"type":"shown"})",

@@ -199,17 +199,19 @@ export function psnr(a, b) {
   return value ?? Infinity;
 }
 
-/** A cube of 48 x 48 x 48 voxels of 1 mm (`dz` mm along z), its first voxel's centre at the origin. */
-function writeCube(file, valueAt, dz = 1) {
+/** A cube of 48 x 48 x 48 voxels of 1 mm (or `side_mm`; `dz` mm along z), its first voxel's centre at the origin. */
+function writeCube(file, valueAt, dz = 1, side_mm = 1) {
   const n = 48, voxels = new Uint16Array(n * n * n);
   for (let k = 0, at = 0; k < n; ++k) for (let j = 0; j < n; ++j) for (let i = 0; i < n; ++i, ++at) voxels[at] = valueAt(i, j, k);
-  const header = `NRRD0004\ntype: uint16\ndimension: 3\nsizes: ${n} ${n} ${n}\nencoding: raw\nendian: little\nspace: left-posterior-superior\nspace directions: (1,0,0) (0,1,0) (0,0,${dz})\nspace origin: (0,0,0)\n\n`;
+  const header = `NRRD0004\ntype: uint16\ndimension: 3\nsizes: ${n} ${n} ${n}\nencoding: raw\nendian: little\nspace: left-posterior-superior\nspace directions: (${side_mm},0,0) (0,${side_mm},0) (0,0,${dz})\nspace origin: (0,0,0)\n\n`;
   writeFileSync(file, Buffer.concat([Buffer.from(header), Buffer.from(voxels.buffer)]));
   return file;
 }
 
+/** A small NRRD file: a ball of 40 voxels of that side in 48. */
+export const writeBallOf = (file, side_mm) => writeCube(file, (i, j, k) => ((i - 23.5) ** 2 + (j - 23.5) ** 2 + (k - 23.5) ** 2 < 400 ? 200 : 0), side_mm, side_mm);
 /** A small NRRD file: a ball of 40 mm about (23.5, 23.5, 23.5) with the value 200. */
-export const writeBall = (file) => writeCube(file, (i, j, k) => ((i - 23.5) ** 2 + (j - 23.5) ** 2 + (k - 23.5) ** 2 < 400 ? 200 : 0));
+export const writeBall = (file) => writeBallOf(file, 1);
 /** A small NRRD file: 1000 + 10 x. */
 export const writeRamp = (file) => writeCube(file, (i) => 1000 + 10 * i);
 

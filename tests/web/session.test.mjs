@@ -1,6 +1,7 @@
 // What outlives a page, or a viewer: links, pictures with all their light, and connections that end.
 import assert from "node:assert/strict";
 import { execFileSync, spawn } from "node:child_process";
+import { writeFileSync } from "node:fs";
 import { createServer } from "node:http";
 import { join } from "node:path";
 import { deflateSync } from "node:zlib";
@@ -123,6 +124,55 @@ test("what a link has replaced is told and comes back in one step; a link to wha
     assert.deepEqual(withoutSize(await viewer.scene()), withoutSize(before));
     assert.equal(await notice.count(), 0);
   }
+});
+
+test("opening something else over a scene that was edited leaves a way back", async (t) => {
+  const viewer = await open(t, [headCt, ...quick]);
+  const { page } = viewer;
+  await viewer.done();
+  const openFile = async (path) => {
+    await page.keyboard.press("Control+o");
+    const [chooser] = await Promise.all([page.waitForEvent("filechooser"), viewer.button("files").click()]);
+    await chooser.setFiles(path);
+  };
+  const shows = (name) => page.waitForFunction((n) => document.title.startsWith(n), name, { timeout: 60000 });
+  const notices = page.locator(".toast", { hasText: /^Opened/ });
+  const ball = writeBall(join(viewer.scratch, "ball.nrrd"));
+  // Nothing is lost yet.
+  await openFile(ball);
+  await shows("ball.nrrd");
+  assert.equal(await notices.count(), 0);
+
+  await page.keyboard.press("3");
+  const edited = await viewer.sceneWith((s) => Math.abs(s.camera.azimuth_deg - 90) < 1e-6, "the view from the left");
+  await openFile(writeRamp(join(viewer.scratch, "ramp.nrrd")));
+  await shows("ramp.nrrd");
+  await notices.filter({ hasText: "Opened ramp.nrrd" }).waitFor();
+  assert.deepEqual(await violations(page), []);
+  assert.ok(await viewer.button("Undo").isDisabled(), "there is a step to undo, and a notice for nothing");
+  await viewer.button("Back to ball.nrrd").click();
+  await shows("ball.nrrd");
+  const plain = ({ image, ...others }) => others;
+  assert.deepEqual(plain(await viewer.scene()), plain(edited));
+  assert.equal(await notices.count(), 0, "the way back has a way back, though nothing was edited there");
+
+  // What one has come back to has been edited, with and without further steps; another scene of the same volume.
+  const scene = join(viewer.scratch, "other.json");
+  writeFileSync(scene, JSON.stringify({ ...edited, camera: { azimuth_deg: 12 } }));
+  await openFile(scene);
+  await viewer.sceneWith((s) => s.camera.azimuth_deg === 12, "the other scene");
+  await viewer.button("Back to ball.nrrd as it was").click();
+  await viewer.sceneWith((s) => Math.abs(s.camera.azimuth_deg - 90) < 1e-6, "the view from the left again");
+  // One that cannot be opened changes nothing and says no such thing; afterwards all is as before.
+  const broken = join(viewer.scratch, "broken.nrrd");
+  writeFileSync(broken, "NRRD0004\n");
+  await openFile(broken);
+  await page.getByText("broken.nrrd could not be opened").first().waitFor();
+  await page.keyboard.press("4");
+  await viewer.sceneWith((s) => Math.abs(s.camera.azimuth_deg + 90) < 1e-6, "the view from the right");
+  await viewer.button("Undo").click();
+  await viewer.sceneWith((s) => Math.abs(s.camera.azimuth_deg - 90) < 1e-6, "one step back");
+  assert.equal(await notices.filter({ hasText: "broken.nrrd" }).count(), 0);
 });
 
 test("links on another site's page lead into the viewer", async (t) => {

@@ -201,7 +201,7 @@ test("the ends of a distance are moved by keys, and it is deleted from them", as
   assert.deepEqual((await viewer.scene()).camera, camera, "the keys have moved the camera");
   await page.keyboard.press("Delete");
   await page.locator(".measurement").waitFor({ state: "detached" });
-  await voice.filter({ hasText: "Distance deleted" }).waitFor();
+  await page.getByRole("status").filter({ hasText: /Distance of [\d.]+ mm deleted/ }).waitFor();
   assert.match(await page.evaluate(() => document.activeElement.getAttribute("aria-label")), /^View of the volume/, "the focus is lost");
 });
 

@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { axesOf, byAngles, heightAtTarget_mm, orbited, panned, turned, zoomed } from "../src/geometry/orbit";
-import { formatCoordinate, formatPosition, orientationLabel, parseCoordinate, type Axis } from "../src/geometry/orientation";
+import { formatCoordinate, formatDistance, formatPosition, lengthScale, parseCoordinate, scaleInMm } from "../src/geometry/length";
+import { orientationLabel, type Axis } from "../src/geometry/orientation";
 import { heightAtDepth_mm, nearestOnLine, pointAtDepth, project, ray } from "../src/geometry/projection";
 import { add, cross, dot, length, scale, sub, type Vec3 } from "../src/geometry/vec3";
 import type { FrameCamera } from "../src/state/protocol";
@@ -142,21 +143,42 @@ describe("orientation labels", () => {
 });
 
 describe("positions", () => {
+  const clinical = lengthScale(0.7);
   it("are told by the patient's sides, without a sign", () => {
-    expect(formatPosition([-12.34, 7, 40.25])).toBe("R 12.3  P 7.0  S 40.3 mm");
-    expect(formatPosition([12.34, -7, -40])).toBe("L 12.3  A 7.0  I 40.0 mm");
+    expect(formatPosition([-12.34, 7, 40.25], clinical)).toBe("R 12.3  P 7.0  S 40.3 mm");
+    expect(formatPosition([12.34, -7, -40], clinical)).toBe("L 12.3  A 7.0  I 40.0 mm");
   });
   it("have one letter for 0, whatever it is rounded from", () => {
-    for (const zero of [0, -0, 0.04, -0.04]) expect(formatPosition([zero, zero, zero])).toBe("L 0.0  P 0.0  S 0.0 mm");
-    expect(formatCoordinate(0, -0.06)).toBe("R 0.1");
+    for (const zero of [0, -0, 0.04, -0.04]) expect(formatPosition([zero, zero, zero], clinical)).toBe("L 0.0  P 0.0  S 0.0 mm");
+    expect(formatCoordinate(0, -0.06, clinical)).toBe("R 0.1");
   });
   it("are read as they are written, and as numbers of LPS", () => {
     for (const axis of [0, 1, 2] as Axis[])
-      for (const mm of [-12.5, 0, 3.1]) expect(parseCoordinate(axis, formatCoordinate(axis, mm))).toBeCloseTo(mm, 9);
+      for (const mm of [-12.5, 0, 3.1]) expect(parseCoordinate(axis, formatCoordinate(axis, mm, clinical))).toBeCloseTo(mm, 9);
     expect(parseCoordinate(0, "r10,5")).toBe(-10.5);
     expect(parseCoordinate(1, " -7 ")).toBe(-7);
   });
   it("are not read of another axis or of no number", () => {
     for (const text of ["S 10", "", "L", "L x", "10 mm", "1.2.3"]) expect(parseCoordinate(0, text)).toBeNaN();
+  });
+});
+
+describe("lengths", () => {
+  const voxels_mm = [2e-6, 5e-6, 1e-4, 0.003, 0.02, 0.3, 0.96, 8, 250, 1e5];
+  it("have a unit in which a voxel is not small, and digits that tell its places apart", () => {
+    expect(voxels_mm.map((voxel) => lengthScale(voxel).unit)).toEqual(["nm", "nm", "µm", "µm", "mm", "mm", "mm", "mm", "m", "m"]);
+    for (const voxel of voxels_mm)
+      for (const scale of [lengthScale(voxel), scaleInMm(voxel)]) {
+        const places = [1, 1.5, 2, 2.5].map((n) => formatCoordinate(2, n * voxel, scale));
+        expect(new Set(places).size, `${places}`).toBe(4);
+      }
+    expect(voxels_mm.map((voxel) => lengthScale(voxel).digits)).toEqual([1, 1, 2, 1, 3, 2, 1, 1, 2, 0]);
+  });
+  it("are measured in that unit", () => {
+    expect(formatDistance(0.003, lengthScale(1e-4))).toBe("3.00 µm");
+    expect(formatDistance(12.34, lengthScale(0.96))).toBe("12.3 mm");
+    expect(formatDistance(123.4, lengthScale(0.96))).toBe("123 mm");
+    expect(formatDistance(3.2e6, lengthScale(1e5))).toBe("3200 m");
+    expect(formatPosition([-0.003, 0, 0.00125], lengthScale(1e-4))).toBe("R 3.00  P 0.00  S 1.25 µm");
   });
 });

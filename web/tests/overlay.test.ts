@@ -7,7 +7,7 @@ import {
   worldDirection,
   worldPosition,
 } from "../src/geometry/light-place";
-import { formatLength, niceLength } from "../src/geometry/scale-bar";
+import { formatRoundLength, niceLength } from "../src/geometry/length";
 import { cross, distance, dot, length, mix, normalize, sub, type Vec3 } from "../src/geometry/vec3";
 import type { Light } from "../src/state/scene-types";
 import { letterbox } from "../src/view/overlay";
@@ -64,7 +64,7 @@ describe("the scale bar", () => {
     }
   });
   it("names lengths in the largest unit of which there is one", () => {
-    expect([0.02, 5, 20, 500, 2000].map(formatLength)).toEqual(["20 µm", "5 mm", "2 cm", "50 cm", "2 m"]);
+    expect([2e-5, 0.001, 0.02, 5, 20, 500, 2000].map(formatRoundLength)).toEqual(["20 nm", "1 µm", "20 µm", "5 mm", "2 cm", "50 cm", "2 m"]);
   });
 });
 

@@ -2,6 +2,7 @@ import { dot, sub } from "../geometry/vec3";
 import { wrapDegrees } from "../model/angles";
 import { crosshair } from "../state/crosshair";
 import { frame } from "../state/frame";
+import { reachFactor } from "../state/lengths";
 import { edit, newGesture, scene } from "../state/scene";
 import type { Vec3 } from "../state/scene-types";
 import { showToast } from "../ui/toast";
@@ -29,7 +30,7 @@ function depthOf(p: Vec3): number | null {
 
 function focusOn(p: Vec3 | null | undefined): void {
   const depth = p && depthOf(p);
-  if (depth) edit([["/camera/focus_mm", Number(depth.toFixed(2))]]);
+  if (depth) edit([["/camera/focus_mm", Number(depth.toPrecision(6))]]);
   else showToast({ text: "There is nothing to focus on" });
 }
 
@@ -111,7 +112,7 @@ export function CameraPanel() {
       </Section>
       <Section title="Depth of field">
         <CameraNumber of={camera} name="aperture_radius_mm" />
-        <CameraNumber name="focus_mm" max={Math.max(1000, 2 * (targetDepth ?? 500))} value={camera.focus_mm ?? targetDepth ?? 0} disabled={camera.aperture_radius_mm === 0} />
+        <CameraNumber name="focus_mm" max={Math.max(1000, (2 * (targetDepth ?? 0)) / reachFactor.value)} value={camera.focus_mm ?? targetDepth ?? 0} disabled={camera.aperture_radius_mm === 0} />
         <div class="row-actions">
           <Button
             primary={picking.value}

@@ -13,20 +13,24 @@ const axes = [
   { key: "z_mm", lower: "Inferior", upper: "Superior" },
 ] as const;
 
+/** The box keeps at least this. */
+const kThinnest_voxels = 0.01;
+
 /** The box before it was switched off. */
 let remembered: Clip | null = null;
 
 /** A box outside of which nothing is seen. */
 export function ClipPanel() {
   const of = scene.value;
-  const bounds = volume.value?.bounds_mm;
+  const facts = volume.value;
   useEffect(() => {
     clipHandles.value = true;
     return () => {
       clipHandles.value = false;
     };
   }, []);
-  if (!of || !bounds) return null;
+  if (!of || !facts) return null;
+  const bounds = facts.bounds_mm;
   const { clip } = of;
   const whole = (blocks_light: boolean): Clip => ({
     x_mm: [bounds[0][0], bounds[1][0]],
@@ -40,7 +44,8 @@ export function ClipPanel() {
   };
   const set = (key: (typeof axes)[number]["key"], end: 0 | 1, value: number, gesture: string) => {
     const other = (clip ?? whole(false))[key][1 - end]!;
-    const kept = other === null ? value : end === 0 ? Math.min(value, other - 0.01) : Math.max(value, other + 0.01);
+    const thin_mm = kThinnest_voxels * Math.min(...facts.spacing_mm);
+    const kept = other === null ? value : end === 0 ? Math.min(value, other - thin_mm) : Math.max(value, other + thin_mm);
     edit([[`/clip/${key}`, end === 0 ? [kept, other] : [other, kept]]], gesture);
   };
   return (

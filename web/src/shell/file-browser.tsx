@@ -1,8 +1,8 @@
 import { useEffect, useState } from "preact/hooks";
-import { openPath } from "../state/scene";
 import { hello } from "../state/session";
 import { getJson } from "../state/volume";
 import { Icon, type IconName } from "../ui/icons";
+import { openFile } from "./replacing";
 
 interface Entry {
   name: string;
@@ -32,7 +32,7 @@ const kSlice = /(^[^.]+|\.(\d+|dcm|dicom|ima|tiff?))$/i;
  * opens them unless `onChoose` is given, and folders entered. */
 export function FileBrowser({
   onOpen,
-  onChoose = openPath,
+  onChoose = openFile,
   kinds = ["volume", "scene"],
 }: {
   onOpen?(): void;

@@ -1,6 +1,6 @@
-import { loadScene, openPath } from "../state/scene";
 import { showToast } from "../ui/toast";
 import { environmentMapEndings, isEnvironmentMap, lightBy } from "./environment-map";
+import { loadSceneFile, openFile } from "./replacing";
 import { uploaded, type NamedFile } from "./upload";
 
 /** Opening what the user drops or picks. */
@@ -8,7 +8,7 @@ import { uploaded, type NamedFile } from "./upload";
 /** A scene file is read here: it need not go through the folder of uploads. */
 async function openSceneFile(file: File): Promise<void> {
   try {
-    loadScene(JSON.parse(await file.text()));
+    loadSceneFile(file.name, JSON.parse(await file.text()));
   } catch (error) {
     showToast({ tone: "error", text: `${file.name} is no JSON: ${(error as Error).message}` });
   }
@@ -20,7 +20,7 @@ export async function openFiles(files: readonly NamedFile[], folder?: string): P
   if (alone && /\.json$/i.test(alone.name)) return openSceneFile(alone.file);
   if (alone && isEnvironmentMap(alone.name)) return lightBy(alone.file);
   const path = await uploaded(files, folder);
-  if (path) openPath(path);
+  if (path) openFile(path);
 }
 
 /** "scan/CT/1.dcm" is CT-1.dcm of scan. What is hidden, as some systems put into folders, is left out. */

@@ -1,12 +1,13 @@
 import { signal } from "@preact/signals";
 import { link } from "../state/connection";
-import { openPath, scene } from "../state/scene";
+import { scene } from "../state/scene";
 import { hello, status } from "../state/session";
 import { Button } from "../ui/controls";
 import { Dialog } from "../ui/dialog";
 import { Icon } from "../ui/icons";
 import { FileBrowser } from "./file-browser";
 import { pickFiles, pickFolder } from "./files";
+import { openFile } from "./replacing";
 import { upload } from "./upload";
 
 /** Choosing what to open: as a whole screen while nothing is, and as a dialog later. */
@@ -16,7 +17,7 @@ export const openDialog = signal(false);
 function Choices({ onOpen }: { onOpen?(): void }) {
   const samples = hello.value?.samples ?? [];
   const choose = (path: string) => {
-    openPath(path);
+    openFile(path);
     onOpen?.();
   };
   return (
@@ -78,7 +79,7 @@ export function OpeningScreen() {
   return (
     <div class="opening floating">
       <div class="opening-inner">
-        <h1>Open a volume</h1>
+        <h2>Open a volume</h2>
         <p class="lead">
           CT, MRI, microscopy or simulation data: NRRD, NIfTI, MetaImage, DICOM folders, TIFF, VTK, HDF5, OpenVDB.
         </p>

@@ -1,3 +1,4 @@
+import { lengthScale } from "../state/lengths";
 import { layout, resolution, theme, type Theme } from "../state/preferences";
 import { canRedo, canUndo, redo, scene, undo } from "../state/scene";
 import { volume, type VolumeFacts } from "../state/volume";
@@ -10,9 +11,10 @@ import { openDialog } from "./opening";
 import { fullscreen, helpShown, toggleFullscreen, toggleSlices } from "./page-state";
 
 function facts({ size, spacing_mm, type, modality, range }: VolumeFacts): string {
+  const scale = lengthScale.value;
   return [
     `${size.join(" x ")} voxels`,
-    `${spacing_mm.map((mm) => Number(mm.toPrecision(3))).join(" x ")} mm`,
+    `${spacing_mm.map((mm) => Number((mm / scale.mm).toPrecision(3))).join(" x ")} ${scale.unit}`,
     `${modality} ${type}, values ${range.map((x) => Number(x.toPrecision(5))).join(" to ")}`,
   ].join("\n");
 }
@@ -52,10 +54,10 @@ export function TopBar() {
   const none = !scene.value;
   return (
     <header class="top-bar">
-      <span class="brand">
+      <h1 class="brand">
         <Icon name="volume" size={18} />
         voxlume
-      </span>
+      </h1>
       <Button icon="folder" title="Open a volume or scene (Ctrl+O)" onClick={() => (openDialog.value = true)}>
         Open
       </Button>

@@ -26,7 +26,7 @@ effect(() => {
 
 /** The plane across `axis` at `mm`, of the data or of a proxy (`of`). Throws Error with the server's line of text. */
 export async function fetchSlice(axis: "x" | "y" | "z", mm: number, of: string, signal: AbortSignal): Promise<Slice> {
-  const path = `api/slice?axis=${axis}&mm=${mm.toFixed(3)}${of ? `&of=${encodeURIComponent(of)}` : ""}`;
+  const path = `api/slice?axis=${axis}&mm=${Number(mm.toPrecision(9))}${of ? `&of=${encodeURIComponent(of)}` : ""}`;
   const known = kept.get(path);
   if (known) return known;
   const askedIn = opening;

@@ -1,9 +1,10 @@
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
-import { formatCoordinate } from "../geometry/orientation";
+import { formatPlace } from "../geometry/length";
 import { planes, type Plane, type Size } from "../model/slice";
 import { nearestPlane, planeAt_mm, sliceSteps } from "../model/slice-steps";
 import { crosshair } from "../state/crosshair";
 import { labelPaintings } from "../state/label-colors";
+import { lengthScale } from "../state/lengths";
 import { volume } from "../state/volume";
 import { measuring } from "../view/distances";
 import { pointAt } from "../view/probing";
@@ -50,7 +51,7 @@ export function SliceView({ plane, overlay }: { plane: Plane; overlay: string })
   const steps = sliceSteps(facts, layout.normal);
   const input = sliceInput(plane, pane, mm, facts, fingers);
   const { letters } = layout;
-  const place = `${formatCoordinate(layout.normal, mm)} mm`;
+  const place = formatPlace(layout.normal, mm, lengthScale.value);
   return (
     <div
       ref={root}

@@ -1,10 +1,11 @@
 import { useEffect, useMemo, useState } from "preact/hooks";
-import { formatPosition } from "../geometry/orientation";
+import { formatPosition } from "../geometry/length";
 import { formatValue } from "../model/axis";
 import { titleOf } from "../model/label-rules";
 import { newestWins } from "../model/latest";
-import { ctWindows } from "../model/window";
+import { ctWindows, windowDigits } from "../model/window";
 import { crosshair, setCrosshair } from "../state/crosshair";
+import { lengthScale } from "../state/lengths";
 import type { Probe } from "../state/protocol";
 import type { Vec3 } from "../state/scene-types";
 import { labels, volume } from "../state/volume";
@@ -90,6 +91,7 @@ export function SliceBar() {
   const under = useAtCrosshair();
   if (!facts || !at) return null;
   const window = sliceWindow.value;
+  const digits = windowDigits(window);
   const presets = facts.hounsfield ? ctWindows : [{ name: "Automatic", window: initialWindow.value }];
   const known = Object.keys(labels.value);
   const overlay = shownOverlay();
@@ -120,7 +122,7 @@ export function SliceBar() {
         onClick={resetSlices}
       />
       <span class="slice-position" aria-live="off">
-        {formatPosition(at)}
+        {formatPosition(at, lengthScale.value)}
       </span>
       {under?.value != null && (
         <span class="slice-value">
@@ -145,7 +147,7 @@ export function SliceBar() {
         Window{" "}
         <NumberInput
           label="Window"
-          digits={1}
+          digits={digits}
           min={1e-9}
           value={window.width}
           onChange={(width) => setWindow({ ...window, width })}
@@ -155,7 +157,7 @@ export function SliceBar() {
         Level{" "}
         <NumberInput
           label="Level"
-          digits={1}
+          digits={digits}
           value={window.level}
           onChange={(level) => setWindow({ ...window, level })}
         />

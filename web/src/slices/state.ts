@@ -10,28 +10,27 @@ import {
   type Size,
   type Framing,
 } from "../model/slice";
-import { ctWindows, percentileWindow, type Window } from "../model/window";
+import { automaticWindow, ctWindows, type Window } from "../model/window";
+import { keptOfVolumes } from "../state/kept";
 import type { Vec3 } from "../state/scene-types";
 import { volume } from "../state/volume";
 
 /** What all slices share. */
 
-const chosenWindow = signal<{ of: string; window: Window } | null>(null);
+const chosenWindow = keptOfVolumes<Window>("window");
 
-/** The window that a volume starts with: soft tissue for CT, else nearly all values. */
+/** The window that a volume starts with: soft tissue for CT, else what suits the values. */
 export const initialWindow: ReadonlySignal<Window> = computed(() => {
   const facts = volume.value;
   if (!facts) return { level: 0, width: 1 };
-  return facts.hounsfield ? ctWindows[0]!.window : percentileWindow(facts.percentiles, facts.range);
+  return facts.hounsfield ? ctWindows[0]!.window : automaticWindow(facts);
 });
 
 /** Values shown from black to white. */
-export const sliceWindow: ReadonlySignal<Window> = computed(() =>
-  chosenWindow.value?.of === volume.value?.name && chosenWindow.value ? chosenWindow.value.window : initialWindow.value,
-);
+export const sliceWindow: ReadonlySignal<Window> = computed(() => chosenWindow.now.value ?? initialWindow.value);
 
 export function setWindow(window: Window): void {
-  chosenWindow.value = { of: volume.peek()?.name ?? "", window };
+  chosenWindow.set(window);
 }
 
 /** What dragging with the primary button does. */
@@ -50,18 +49,15 @@ export function setPaneSize(plane: Plane, size: Size | null): void {
   paneSizes.value = size ? { ...others, [plane]: size } : others;
 }
 
-const chosenFraming = signal<{ of: string; framing: Framing } | null>(null);
+const chosenFraming = keptOfVolumes<Framing>("framing");
 
 /** Whether the panes show something else than all of every plane. */
-export const slicesMoved: ReadonlySignal<boolean> = computed(
-  () => chosenFraming.value !== null && chosenFraming.value.of === volume.value?.name,
-);
+export const slicesMoved: ReadonlySignal<boolean> = computed(() => chosenFraming.now.value !== null);
 
 /** What all panes show: one middle, and one scale, so that lengths can be compared. */
 const framing: ReadonlySignal<Framing> = computed(() => {
   const facts = volume.value;
-  if (facts && chosenFraming.value?.of === facts.name) return chosenFraming.value.framing;
-  return { center_mm: facts ? mix(...facts.bounds_mm, 0.5) : [0, 0, 0], zoom: 1 };
+  return chosenFraming.now.value ?? { center_mm: facts ? mix(...facts.bounds_mm, 0.5) : [0, 0, 0], zoom: 1 };
 });
 
 /** CSS px of 1 mm in all panes. */
@@ -73,9 +69,7 @@ export function paneView(size: Size): PaneView {
   return { ...size, center_mm: framing.value.center_mm, pxPerMm: sliceScale.value };
 }
 
-function setFraming(to: Framing | null): void {
-  chosenFraming.value = to && { of: volume.peek()?.name ?? "", framing: to };
-}
+const setFraming = (to: Framing | null): void => chosenFraming.set(to);
 
 /** Nearer by `factor` (> 1), or farther, in all panes; the point stays where it is seen. */
 export function zoomSlices(factor: number, about: Vec3): void {

@@ -1,16 +1,17 @@
-import { computed, signal, type ReadonlySignal } from "@preact/signals";
+import { computed, type ReadonlySignal } from "@preact/signals";
+import { keptOfVolumes } from "./kept";
 import type { Vec3 } from "./scene-types";
 import { volume } from "./volume";
 
 /** The point that slices and the picture mark together. */
 
-const chosen = signal<{ of: string; at: Vec3 } | null>(null);
+const chosen = keptOfVolumes<Vec3>("crosshair");
 
 /** LPS mm; the volume's middle until another point is chosen. Null while no volume is open. */
 export const crosshair: ReadonlySignal<Vec3 | null> = computed(() => {
   const facts = volume.value;
   if (!facts) return null;
-  if (chosen.value?.of === facts.name) return chosen.value.at;
+  if (chosen.now.value) return chosen.now.value;
   const [lo, hi] = facts.bounds_mm;
   return [(lo[0] + hi[0]) / 2, (lo[1] + hi[1]) / 2, (lo[2] + hi[2]) / 2];
 });
@@ -20,6 +21,5 @@ export function setCrosshair(p: Vec3): void {
   const facts = volume.peek();
   if (!facts) return;
   const [lo, hi] = facts.bounds_mm;
-  const at = p.map((x, i) => Math.min(hi[i]!, Math.max(lo[i]!, x))) as unknown as Vec3;
-  chosen.value = { of: facts.name, at };
+  chosen.set(p.map((x, i) => Math.min(hi[i]!, Math.max(lo[i]!, x))) as unknown as Vec3);
 }

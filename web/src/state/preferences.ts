@@ -2,10 +2,11 @@ import { effect, signal, type Signal } from "@preact/signals";
 
 /** What this browser remembers; no part of the scene. */
 
-function remembered<T>(key: string, otherwise: T): Signal<T> {
+/** A signal that the browser keeps as `voxlume.KEY`: for ever, or as long as `storage` does. */
+export function remembered<T>(key: string, otherwise: T, storage = () => localStorage): Signal<T> {
   let start = otherwise;
   try {
-    const text = localStorage.getItem(`voxlume.${key}`);
+    const text = storage().getItem(`voxlume.${key}`);
     if (text !== null) start = JSON.parse(text) as T;
   } catch {
     // No storage, or not ours: the default holds.
@@ -13,7 +14,7 @@ function remembered<T>(key: string, otherwise: T): Signal<T> {
   const value = signal(start);
   effect(() => {
     try {
-      localStorage.setItem(`voxlume.${key}`, JSON.stringify(value.value));
+      storage().setItem(`voxlume.${key}`, JSON.stringify(value.value));
     } catch {
       // Without storage it holds until the page is closed.
     }

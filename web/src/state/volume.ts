@@ -1,4 +1,4 @@
-import { signal, type ReadonlySignal } from "@preact/signals";
+import { batch, signal, type ReadonlySignal } from "@preact/signals";
 import { on } from "./connection";
 import type { Range, Vec3 } from "./scene-types";
 
@@ -47,6 +47,10 @@ const facts = signal<VolumeFacts | null>(null);
 /** The open volume; null while none is. */
 export const volume: ReadonlySignal<VolumeFacts | null> = facts;
 
+const key = signal<string | null>(null);
+/** Tells the open volume from all others; null while none is open. */
+export const volumeKey: ReadonlySignal<string | null> = key;
+
 const labelNames = signal<Record<string, LabelName[]>>({});
 /** Labels that occur, by proxy name, and "labels" for /labels of the scene. */
 export const labels: ReadonlySignal<Record<string, LabelName[]>> = labelNames;
@@ -59,6 +63,8 @@ export async function getJson<T>(path: string): Promise<T> {
 }
 
 let asked = 0;
+/** Of the scene that was told last. */
+let path = "";
 
 /** Fetches both anew: when a volume was opened, or label volumes of the scene changed. */
 export async function refreshVolume(): Promise<void> {
@@ -68,8 +74,11 @@ export async function refreshVolume(): Promise<void> {
     getJson<Record<string, LabelName[]>>("api/labels").catch(() => ({})),
   ]);
   if (turn !== asked) return;
-  facts.value = newFacts;
-  labelNames.value = newLabels;
+  batch(() => {
+    facts.value = newFacts;
+    key.value = newFacts && JSON.stringify([path, newFacts.size, newFacts.bounds_mm]);
+    labelNames.value = newLabels;
+  });
 }
 
 /** The histogram of a proxy (gradients and files). */
@@ -82,10 +91,13 @@ export function fetchJointHistogram(x: string, y: string): Promise<JointHistogra
   return getJson<JointHistogram>(`api/histogram2?x=${encodeURIComponent(x)}&y=${encodeURIComponent(y)}`);
 }
 
-on("scene", () => void refreshVolume());
+on("scene", (message) => {
+  path = message.scene.volume.path;
+  void refreshVolume();
+});
 on("edited", (message) => {
   if ("proxies" in message.sections || "labels" in message.sections) void refreshVolume();
 });
 on("status", (message) => {
-  if (message.stage === "empty") facts.value = null;
+  if (message.stage === "empty") facts.value = key.value = null;
 });

@@ -1,6 +1,8 @@
 import type { ComponentChildren } from "preact";
 import { useId, useLayoutEffect, useRef, useState } from "preact/hooks";
-import { formatCoordinate, parseCoordinate, type Axis } from "../geometry/orientation";
+import { formatCoordinate, parseCoordinate } from "../geometry/length";
+import type { Axis } from "../geometry/orientation";
+import { reachFactor, typedScale, typedStep_mm } from "../state/lengths";
 import { newGesture } from "../state/scene";
 import { Icon, type IconName } from "./icons";
 
@@ -24,10 +26,11 @@ export interface NumberProps {
   onChange: Change<number>;
   min?: number;
   max?: number;
-  /** Of the arrow keys. */
+  /** Of the arrow keys; of lengths for an ordinary volume, whose voxels are about 1 mm. */
   step?: number;
-  /** Digits after the point that are shown. */
+  /** Digits after the point that are shown; of lengths at least as many as resolve a voxel. */
   digits?: number;
+  /** "mm" for lengths. */
   unit?: string;
   /** It is a coordinate along this axis [LPS mm], written by the patient's side. */
   axis?: Axis;
@@ -38,14 +41,25 @@ export interface NumberProps {
 
 const clamp = (x: number, min = -Infinity, max = Infinity) => Math.min(max, Math.max(min, x));
 
+/** From here on single units are not written. */
+const kTooLong = 1e15;
+
+const isLength = ({ unit, axis }: NumberProps) => unit === "mm" || axis !== undefined;
+
 /** As the page writes it; empty where it is not finite. */
-function textOf({ value, axis, digits = 2 }: NumberProps): string {
+function textOf(props: NumberProps): string {
+  const { value, axis, digits = 2 } = props;
   if (!Number.isFinite(value)) return "";
-  return axis === undefined ? String(Number(value.toFixed(digits))) : formatCoordinate(axis, value);
+  if (axis !== undefined) return formatCoordinate(axis, value, typedScale.value);
+  if (Math.abs(value) >= kTooLong) return String(Number(value.toPrecision(5)));
+  return String(Number(value.toFixed(isLength(props) ? Math.max(digits, typedScale.value.digits) : digits)));
 }
 
 const isWhollySelected = (input: HTMLInputElement) =>
   input === document.activeElement && input.selectionStart === 0 && input.selectionEnd === input.value.length;
+
+/** What an arrow key changes it by. */
+const stepOf = (props: NumberProps) => (props.step ?? 1) * (isLength(props) ? typedStep_mm.value : 1);
 
 /** A number to type; Enter or leaving takes it, Escape does not, arrow keys step (Shift: ten steps). */
 export function NumberInput(props: NumberProps) {
@@ -73,7 +87,7 @@ export function NumberInput(props: NumberProps) {
     } else if (event.key === "ArrowUp" || event.key === "ArrowDown") {
       event.preventDefault();
       if (!event.repeat) gesture.current = newGesture("number");
-      const by = (props.step ?? 1) * (event.shiftKey ? 10 : 1) * (event.key === "ArrowUp" ? 1 : -1);
+      const by = stepOf(props) * (event.shiftKey ? 10 : 1) * (event.key === "ArrowUp" ? 1 : -1);
       setDraft(null);
       props.onChange(clamp(props.value + by, props.min, props.max), gesture.current);
     }
@@ -89,6 +103,7 @@ export function NumberInput(props: NumberProps) {
         aria-label={props.label ? (props.unit ? `${props.label} [${props.unit}]` : props.label) : undefined}
         disabled={props.disabled}
         value={draft ?? text}
+        style={{ "--letters": text.length }}
         onFocus={(event) => event.currentTarget.select()}
         onInput={(event) => setDraft(event.currentTarget.value)}
         onBlur={(event) => draft !== null && take(event.currentTarget.value)}
@@ -101,6 +116,7 @@ export function NumberInput(props: NumberProps) {
 
 export interface SliderProps extends NumberProps {
   label: string;
+  /** Its ends; of lengths for an ordinary volume. */
   min: number;
   max: number;
   hint?: string;
@@ -119,14 +135,17 @@ const kSliderSteps = 1000;
 export function Slider(props: SliderProps) {
   const id = useId();
   const gesture = useRef<string | null>(null);
-  const { min, max, logarithmic } = props;
+  const { logarithmic } = props;
+  // A coordinate's slider has the volume's own ends.
+  const reach = props.unit === "mm" && props.axis === undefined ? reachFactor.value : 1;
+  const [min, max] = [props.min * reach, props.max * reach];
   const share = logarithmic
     ? Math.log(clamp(props.value, min, max) / min) / Math.log(max / min)
     : (clamp(props.value, min, max) - min) / (max - min || 1);
   const at = (s: number) => {
     const value = logarithmic ? min * (max / min) ** s : min + s * (max - min);
     if (logarithmic) return Number(value.toPrecision(3));
-    return props.step ? clamp(Math.round(value / props.step) * props.step, min, max) : value;
+    return props.step ? clamp(Math.round(value / stepOf(props)) * stepOf(props), min, max) : value;
   };
   const slide = (event: Event) => {
     gesture.current ??= newGesture("slider");

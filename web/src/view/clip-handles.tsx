@@ -1,7 +1,9 @@
-import { formatCoordinate, type Axis } from "../geometry/orientation";
+import { formatPlace } from "../geometry/length";
+import type { Axis } from "../geometry/orientation";
 import { nearestOnLine } from "../geometry/projection";
-import { add, scale, type Vec3 } from "../geometry/vec3";
+import { add, dot, scale, type Vec3 } from "../geometry/vec3";
 import type { Clip, Faces } from "../state/scene-types";
+import { lengthScale } from "../state/lengths";
 import { edit, newGesture, scene, section } from "../state/scene";
 import { volume } from "../state/volume";
 import { clipHandles } from "../state/tools";
@@ -51,11 +53,29 @@ function withAxis(v: Vec3, axis: number, value: number): Vec3 {
   return v.map((x, i) => (i === axis ? value : x)) as unknown as Vec3;
 }
 
-function Face({ shown, box, axis, side }: FaceProps) {
+/** Handles of one axis are no nearer to one another [CSS px]. */
+const kApart_px = 34;
+/** Cosine to the view beyond which an axis has no length on the screen to drag along. */
+const kFacing = 0.985;
+
+/** Where the handle of a face is: in its middle, and beside it where the other face's would be in the same place. */
+function handlePlace({ shown, box, axis, side }: FaceProps): { x: number; y: number; depth_mm: number } {
+  const middle = scale(add(box[0], box[1]), 0.5);
+  const [here, other] = [side, 1 - side].map((s) => shown.project(withAxis(middle, axis, box[s]![axis]!)));
+  const [dx, dy] = [here!.x - other!.x, here!.y - other!.y];
+  const apart = Math.hypot(dx, dy);
+  if (apart >= kApart_px || other!.depth_mm <= 0) return here!;
+  const [x, y] = apart > 1 ? [dx / apart, dy / apart] : [side === 0 ? -1 : 1, 0];
+  const between = (a: number, b: number, way: number) => (a + b + kApart_px * way) / 2;
+  return { ...here!, x: between(here!.x, other!.x, x), y: between(here!.y, other!.y, y) };
+}
+
+function Face(face: FaceProps) {
+  const { shown, box, axis, side } = face;
   const at = box[side][axis]!;
   const middle = withAxis(scale(add(box[0], box[1]), 0.5), axis, at);
   const unit = withAxis([0, 0, 0], axis, 1);
-  const seen = shown.project(middle);
+  const seen = handlePlace(face);
   if (seen.depth_mm <= 0) return null;
   const [u, v] = [0, 1, 2].filter((other) => other !== axis) as [number, number];
   const corners = (
@@ -70,8 +90,12 @@ function Face({ shown, box, axis, side }: FaceProps) {
   const press = (event: PointerEvent) => {
     const area = (event.currentTarget as Element).closest(".view")!.getBoundingClientRect();
     const gesture = newGesture("clip");
+    const facing = dot(unit, shown.ray(seen.x, seen.y).direction);
+    // Along the view, up is away from the eye.
     const along = (e: PointerEvent) =>
-      nearestOnLine(middle, unit, (view.peek() ?? shown).ray(e.clientX - area.left, e.clientY - area.top));
+      Math.abs(facing) > kFacing
+        ? (-Math.sign(facing) * e.clientY) / shown.pxPerMm(seen.depth_mm)
+        : nearestOnLine(middle, unit, (view.peek() ?? shown).ray(e.clientX - area.left, e.clientY - area.top));
     const grabbed = along(event) ?? 0;
     startDrag(event, {
       move: ({ event: e }) => {
@@ -89,6 +113,7 @@ function Face({ shown, box, axis, side }: FaceProps) {
     setSide(axis, side, at + way * 0.01 * (bounds[1][axis]! - bounds[0][axis]!), newGesture("clip-keys"));
   };
   const name = sideNames[axis]![side];
+  const place = formatPlace(axis, at, lengthScale.value);
   return (
     <g class={`clip-face axis-${axis}${cut ? " cut" : ""}`}>
       {corners.every((corner) => corner.depth_mm > 0) && (
@@ -99,14 +124,14 @@ function Face({ shown, box, axis, side }: FaceProps) {
         role="slider"
         tabindex={0}
         aria-label={`Clip from the ${name}`}
-        aria-valuenow={Math.round(at)}
-        aria-valuetext={`${formatCoordinate(axis, at)} mm`}
+        aria-valuenow={Number(at.toPrecision(6))}
+        aria-valuetext={place}
         transform={`translate(${seen.x} ${seen.y})`}
         onPointerDown={press}
         onKeyDown={keyDown}
         onDblClick={() => setSide(axis, side, null, newGesture("clip"))}
       >
-        <title>{`Clip from the ${name}: ${formatCoordinate(axis, at)} mm. Double click opens it`}</title>
+        <title>{`Clip from the ${name}: ${place}. Double click opens it`}</title>
         <circle class="reach" r={16} />
         <circle class="knob" r={6.5} />
       </g>

@@ -1,14 +1,17 @@
-import { computed, signal, type ReadonlySignal } from "@preact/signals";
-import { formatPosition } from "../geometry/orientation";
+import { computed, effect, signal, type ReadonlySignal } from "@preact/signals";
+import { formatDistance, formatPosition } from "../geometry/length";
 import { distance, type Vec3 } from "../geometry/vec3";
-import { on } from "../state/connection";
+import { keptOfVolumes } from "../state/kept";
+import { lengthScale } from "../state/lengths";
 import { pointerTool } from "../state/tools";
+import { volumeKey } from "../state/volume";
 import { showToast } from "../ui/toast";
 import { probeAt, type Place } from "./probing";
 
-/** Distances between points of the anatomy. They belong to this page, not to the scene. */
+/** Distances between points of the anatomy. They belong to this page and a volume, not to the scene. */
 
 export interface Measurement {
+  /** When it was measured [ms]; no two have the same. */
   id: number;
   a: Vec3;
   b: Vec3;
@@ -30,12 +33,13 @@ export interface MeasuringPane {
   under(x: number, y: number): () => Place;
 }
 
-export const measurements = signal<readonly Measurement[]>([]);
+const kept = keptOfVolumes<readonly Measurement[]>("distances");
+/** Of the open volume. */
+export const measurements: ReadonlySignal<readonly Measurement[]> = computed(() => kept.now.value ?? []);
 const first = signal<Vec3 | null>(null);
 /** The first end of a distance whose second is not set yet. */
 export const begun: ReadonlySignal<Vec3 | null> = first;
 export const measuring = computed(() => pointerTool.value === "measure");
-let count = 0;
 
 const words = signal("");
 /** What is to be read aloud of measuring. */
@@ -57,22 +61,29 @@ export function sayAtRest(text: () => string | null): void {
   }, kRest_ms);
 }
 
-/** Distances belong to a volume; one that fails to open changes nothing. */
-let opening = false;
-on("status", (message) => {
-  if (opening && message.stage === "ready") clearMeasurements();
-  opening = message.stage === "reading" || message.stage === "preparing";
+effect(() => {
+  void volumeKey.value;
+  first.value = null;
 });
 
-export function clearMeasurements(): void {
-  measurements.value = [];
-  first.value = null;
+/** Removes distances and tells so, with a button that brings them back. */
+function remove(gone: readonly Measurement[], what: string): void {
+  const of = volumeKey.peek();
+  kept.set(measurements.peek().filter((one) => !gone.includes(one)));
   say("");
+  const putBack = () => kept.set([...(kept.of(of) ?? []), ...gone].sort((a, b) => a.id - b.id), of);
+  showToast({ text: `${what} deleted`, action: { label: "Undo", run: putBack } });
+}
+
+export function removeAll(): void {
+  const all = measurements.peek();
+  first.value = null;
+  remove(all, all.length === 1 ? "A distance" : `${all.length} distances`);
 }
 
 export function removeMeasurement(id: number): void {
-  measurements.value = measurements.value.filter((one) => one.id !== id);
-  say("Distance deleted");
+  const gone = measurements.peek().filter((one) => one.id === id);
+  if (gone[0]) remove(gone, `Distance of ${lengthOf(gone[0])}`);
 }
 
 function dropFirst(): void {
@@ -93,10 +104,7 @@ export function cancelMeasuring(): void {
   else pointerTool.value = "navigate";
 }
 
-export const lengthOf = ({ a, b }: { a: Vec3; b: Vec3 }): string => {
-  const mm = distance(a, b);
-  return `${mm >= 100 ? mm.toFixed(0) : mm.toFixed(1)} mm`;
-};
+export const lengthOf = ({ a, b }: { a: Vec3; b: Vec3 }): string => formatDistance(distance(a, b), lengthScale.value);
 
 const probed = async (pane: MeasuringPane, x: number, y: number) => (await probeAt(pane.at(x, y)))?.position_mm;
 
@@ -106,11 +114,11 @@ export async function setEnd(pane: MeasuringPane, x: number, y: number): Promise
   if (!place) return showToast({ text: "Nothing there to measure: choose a point of the volume." });
   if (!first.value) {
     first.value = place;
-    say(`First end at ${formatPosition(place)}`);
+    say(`First end at ${formatPosition(place, lengthScale.peek())}`);
     return;
   }
-  const added = { id: ++count, a: first.value, b: place };
-  measurements.value = [...measurements.value, added];
+  const added = { id: Date.now(), a: first.value, b: place };
+  kept.set([...measurements.peek(), added]);
   first.value = null;
   say(`Distance ${lengthOf(added)}`);
 }
@@ -118,7 +126,7 @@ export async function setEnd(pane: MeasuringPane, x: number, y: number): Promise
 /** Moves an end to a place of a pane [CSS px]; false where there is nothing. */
 export async function moveEnd(id: number, end: "a" | "b", pane: MeasuringPane, x: number, y: number): Promise<boolean> {
   const place = await probed(pane, x, y);
-  if (place) measurements.value = measurements.value.map((one) => (one.id === id ? { ...one, [end]: place } : one));
+  if (place) kept.set(measurements.peek().map((one) => (one.id === id ? { ...one, [end]: place } : one)));
   return Boolean(place);
 }
 

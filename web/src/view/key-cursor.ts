@@ -1,5 +1,6 @@
 import { effect, signal, type ReadonlySignal } from "@preact/signals";
-import { formatPosition } from "../geometry/orientation";
+import { formatPosition } from "../geometry/length";
+import { lengthScale } from "../state/lengths";
 import { begun, lengthOf, measuring, sayAtRest, setEnd, type MeasuringPane } from "./distances";
 import { pointAt, pointed } from "./probing";
 
@@ -62,6 +63,6 @@ effect(() => {
   const here = pointed.value?.position_mm;
   if (!cursor.peek() || !moving) return;
   const from = begun.peek();
-  const text = !here ? "Nothing here" : from ? lengthOf({ a: from, b: here }) : formatPosition(here);
+  const text = !here ? "Nothing here" : from ? lengthOf({ a: from, b: here }) : formatPosition(here, lengthScale.peek());
   sayAtRest(() => (moving ? text : null));
 });

@@ -1,4 +1,4 @@
-import { niceLength } from "../geometry/scale-bar";
+import { niceLength } from "../geometry/length";
 import { cameraNow } from "./camera-control";
 import { view } from "./overlay";
 

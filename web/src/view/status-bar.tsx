@@ -1,8 +1,9 @@
-import { formatPosition } from "../geometry/orientation";
+import { formatPosition } from "../geometry/length";
 import { formatValue } from "../model/axis";
 import { titleOf } from "../model/label-rules";
 import { compiling, frame, progress } from "../state/frame";
 import { labelColors } from "../state/label-colors";
+import { lengthScale } from "../state/lengths";
 import type { FrameHeader, Probe } from "../state/protocol";
 import { viewers } from "../state/session";
 import { volume } from "../state/volume";
@@ -21,7 +22,7 @@ function Pointed({ at }: { at: Probe }) {
         class="cell position"
         title="Position under the pointer: distance from the origin toward the patient's side"
       >
-        {at.position_mm && formatPosition(at.position_mm)}
+        {at.position_mm && formatPosition(at.position_mm, lengthScale.value)}
       </span>
       {facts && at.value != null && <span class="cell value">{formatValue(at.value, facts)}</span>}
       {at.labels?.filter(isMarked).map((label) => (

@@ -3,7 +3,7 @@ import { setSplit, split } from "../state/session";
 import { clipHandles, lightHandles, pointerTool } from "../state/tools";
 import { Button, IconButton } from "../ui/controls";
 import { fitView, toggleProjection } from "./camera-control";
-import { cancelMeasuring, clearMeasurements, measurements, measuring } from "./distances";
+import { cancelMeasuring, measurements, measuring, removeAll } from "./distances";
 
 /** The tools over the picture, at its left edge. */
 
@@ -68,7 +68,7 @@ export function ToolHint() {
     return (
       <div class="hint floating">
         <span>Click two points, or arrow keys and Enter</span>
-        {measurements.value.length > 0 && <Button onClick={clearMeasurements}>Delete all</Button>}
+        {measurements.value.length > 0 && <Button onClick={removeAll}>Delete all</Button>}
         <Button onClick={toggleMeasuring}>Done</Button>
       </div>
     );

@@ -14,7 +14,7 @@ import {
   type PaneView,
   type SliceHeader,
 } from "../../src/model/slice";
-import { decode, dragWindow, greyTable, percentileWindow } from "../../src/model/window";
+import { automaticWindow, decode, dragWindow, greyTable } from "../../src/model/window";
 import type { Vec3 } from "../../src/state/scene-types";
 
 const header: SliceHeader = { width: 100, height: 50, origin_mm: [-99, -40], spacing_mm: 2, scale: 0.5, offset: -1024 };
@@ -132,8 +132,48 @@ describe("window and level", () => {
     expect(dragWindow(from, -1e6, 0, 1000).width).toBeGreaterThan(0);
   });
 
-  it("starts with nearly all values in sight", () => {
-    expect(percentileWindow({ "1": 10, "99": 90 }, [0, 255])).toEqual({ level: 50, width: 80 });
-    expect(percentileWindow({ "1": 0, "99": 0 }, [0, 255])).toEqual({ level: 127.5, width: 255 });
+  /** What the server tells of a volume with that many voxels of each value 0, 1, 2, ... */
+  const factsOf = (counts: readonly number[]) => {
+    const all = counts.reduce((sum, n) => sum + n, 0);
+    const percentile = (p: number) => {
+      let below = 0;
+      return counts.findIndex((n) => (below += n) >= (p / 100) * all);
+    };
+    const percentiles = Object.fromEntries([0.1, 1, 5, 50, 95, 99, 99.9].map((p) => [String(p), percentile(p)]));
+    const hi = counts.length - 1;
+    return { range: [0, hi] as const, percentiles, histogram: { lo: 0, hi, counts } };
+  };
+  const peak = (middle: number, width: number, count: number) => (value: number) =>
+    Math.round((count / (width * 2.507)) * Math.exp(-0.5 * ((value - middle) / width) ** 2));
+  const valuesOf = (length: number, ...peaks: ((value: number) => number)[]) =>
+    Array.from({ length }, (_, value) => peaks.reduce((sum, of) => sum + of(value), 0));
+  const shade = (counts: readonly number[], value: number) => {
+    const { level, width } = automaticWindow(factsOf(counts));
+    return (value - level) / width + 0.5;
+  };
+
+  it("starts with the brightest tissue below white, however large the background is", () => {
+    for (const background of [0, 1e5, 1e6, 1e7]) {
+      const counts = valuesOf(200, (v) => (v === 0 ? background : 0), peak(80, 8, 1e5), peak(115, 3, 8e4));
+      expect(shade(counts, 115)).toBeGreaterThan(0.8);
+      expect(shade(counts, 120)).toBeLessThan(0.96);
+    }
+    // Where fat is brighter than what is looked at.
+    expect(shade(valuesOf(256, peak(3, 2, 4e5), peak(80, 10, 3e5), peak(113, 5, 2e5), peak(180, 20, 3e4)), 113)).toBeGreaterThan(0.5);
+  });
+
+  it("starts with what is sparse in sight, above the noise of a camera", () => {
+    const counts = valuesOf(4096, peak(100, 10, 1e7), peak(1500, 300, 4e4));
+    expect(shade(counts, 1500)).toBeGreaterThan(0.5);
+    expect(shade(counts, 1500)).toBeLessThan(0.95);
+    expect(shade(counts, 130)).toBeLessThan(0.05);
+  });
+
+  it("starts with all values where there is no more to go by", () => {
+    expect(automaticWindow(factsOf([5]))).toEqual({ level: 0, width: 1e-6 });
+    expect(automaticWindow(factsOf([7, 3]))).toEqual({ level: 0.5, width: 1 });
+    // One value far out has all others in one bin.
+    const outlier = { range: [0, 1e32], percentiles: { "0.1": 0, "1": 1, "99": 101, "99.9": 110 }, histogram: { lo: 0, hi: 1e32, counts: [1e6, ...Array(510).fill(0), 1] } } as const;
+    expect(automaticWindow(outlier)).toEqual({ level: 56, width: 110 });
   });
 });

@@ -12,7 +12,7 @@ const LightNumber = numberFields("/lights", {
   intensity: { label: "Intensity", min: 0.01, max: 50, hardMin: 0, hardMax: 1e12, logarithmic: true, digits: 3 },
   azimuthDeg: { label: "Azimuth", unit: "°", min: -180, max: 180, digits: 1 },
   elevationDeg: { label: "Elevation", unit: "°", min: -89.9, max: 89.9, digits: 1 },
-  distanceMm: { label: "Distance", hint: "From the point that the camera turns about", unit: "mm", min: 1, max: 5000, hardMin: 0.001, hardMax: 1e9, logarithmic: true, digits: 1 },
+  distanceMm: { label: "Distance", hint: "From the point that the camera turns about", unit: "mm", min: 1, max: 5000, hardMin: 1e-6, hardMax: 1e9, logarithmic: true, digits: 1 },
 });
 
 /** Usual intensities differ by kind: a point's grows with the square of its distance. */
@@ -86,7 +86,7 @@ export function LightFields({ light, index }: { light: Light; index: number }) {
                 label={i === 0 ? "Width" : "Height"}
                 unit="mm"
                 digits={1}
-                min={0.001}
+                min={1e-6}
                 step={10}
                 value={light.size_mm[i]!}
                 onChange={(value, gesture) => edit([[`${at}/size_mm/${i}`, value]], gesture)}

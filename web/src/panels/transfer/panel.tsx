@@ -83,7 +83,11 @@ function FunctionEditor({ of, index }: { of: Scene; index: number }) {
   const thin = densest > 0 && densest < 0.1;
   const isFine = fine ?? thin;
   const chosen = Math.min(selected, points.length - 1);
-  const change = (next: TransferPoint[], gesture: string) => edit([[pointer, next]], gesture);
+  const change = (next: TransferPoint[], gesture: string) => {
+    // A curve that was changed is no preset's any more; without points it is the preset's again.
+    const leaves = !rule && next.length > 0 && Boolean(of.transfer.preset);
+    edit(leaves ? [[pointer, next], ["/transfer/preset", null]] : [[pointer, next]], gesture);
+  };
   const addInMiddle = () => {
     const added = addPoint(points, (span.lo + span.hi) / 2, 0.5, referenceMm);
     change(added.points, newGesture("add-point"));

@@ -15,7 +15,7 @@ export function Presets() {
           <Preset key={name} name={name} summary={summary} chosen={name === chosen} />
         ))}
       </div>
-      <p class="note">{presets.find((preset) => preset.name === chosen)?.summary}</p>
+      <p class="note">{presets.find((preset) => preset.name === chosen)?.summary ?? "The curve has been changed"}</p>
     </>
   );
 }

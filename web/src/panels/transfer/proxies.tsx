@@ -122,6 +122,8 @@ function ProxyFields({ of, proxy, index }: { of: Scene; proxy: Proxy; index: num
           unit="mm"
           min={0.2}
           max={20}
+          hardMin={1e-6}
+          hardMax={1e6}
           logarithmic
           value={proxy.sigma_mm}
           onChange={(value, gesture) => edit([[`${at}/sigma_mm`, value]], gesture)}

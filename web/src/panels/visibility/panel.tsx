@@ -20,7 +20,7 @@ const VisibilityNumber = numberFields("/visibility", {
 /** The same of one thing that is important. */
 const ImportanceNumber = numberFields("/visibility/important", {
   importance: { label: "Importance", min: 0, max: 1, step: 0.01, initial: 1 },
-  radius_mm: { label: "Radius", unit: "mm", min: 1, max: 200, hardMin: 0.1, hardMax: 1e6, logarithmic: true, digits: 1 },
+  radius_mm: { label: "Radius", unit: "mm", min: 1, max: 200, hardMin: 1e-6, hardMax: 1e6, logarithmic: true, digits: 1 },
 });
 
 /** As the scene reference has them. */
@@ -75,7 +75,7 @@ export function VisibilityPanel() {
     add({ importance: 1, volume: name, along: "", range: inside }, [["/proxies/-", proxy]]);
   };
   const addRegion = () => {
-    const radius = Math.round((of.camera.fit_radius_mm ?? 100) / 4);
+    const radius = Number(((of.camera.fit_radius_mm ?? 100) / 4).toPrecision(2));
     add({ importance: 1, volume: "data", along: "", center_mm: crosshair.value ?? [0, 0, 0], radius_mm: radius });
   };
   const toggle = (on: boolean) => {
@@ -299,8 +299,9 @@ function Region({ entry, at }: { entry: Importance; at: string }) {
             <NumberInput
               key={i}
               label={`Size ${"xyz"[i]}`}
+              unit="mm"
               digits={1}
-              min={0.1}
+              min={1e-6}
               value={entry.size_mm![i]!}
               onChange={(value, gesture) =>
                 edit([[`${at}/size_mm`, entry.size_mm!.map((x, k) => (k === i ? value : x))]], gesture)
