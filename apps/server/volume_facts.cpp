@@ -41,6 +41,7 @@ json volume_json(const std::string& name, const Volume& volume, const VolumeStat
   return {{"name", name},
           {"size", volume.size},
           {"spacing_mm", volume.spacing_mm},
+          {"direction", volume.direction},
           {"type", voxel_type_name(volume.type)},
           {"modality", volume.modality},
           {"bounds_mm", {triple(bounds.lower), triple(bounds.upper)}},

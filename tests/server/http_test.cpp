@@ -273,6 +273,7 @@ TEST_F(HttpOfVolume, VolumeSaysWhatItIs) {
   EXPECT_EQ(volume["type"], "i16");
   EXPECT_EQ(volume["voxels"], 4096);
   EXPECT_EQ(volume["bounds_mm"], json({{-8, -8, -8}, {8, 8, 8}}));
+  EXPECT_EQ(volume["direction"], json({1, 0, 0, 0, 1, 0, 0, 0, 1}));
   EXPECT_EQ(volume["range"], json({0, ramp(15, 15, 15)}));
   EXPECT_EQ(volume["hounsfield"], false);
   ASSERT_EQ(volume["histogram"]["counts"].size(), 512u);

@@ -127,20 +127,66 @@ test("one crosshair: clicks, wheel, keys and sliders of one plane move the other
   assert.equal(dragged[1], clicked[1]);
 
   const { spacing_mm } = await page.evaluate(async () => (await fetch("/api/volume")).json());
-  const step = Math.min(...spacing_mm);
   await page.mouse.move(...(await slices.middle("Sagittal")));
   await page.mouse.wheel(0, -100);
-  const wheeled = await slices.until((at) => at[0] !== dragged[0], "one plane on");
-  assert.ok(Math.abs(wheeled[0] - dragged[0] - step) < 0.11, `${wheeled[0] - dragged[0]} mm, not ${step}`);
+  const wheeled = await slices.until((at) => at[0] !== dragged[0], "on the next slice");
+  assert.ok(wheeled[0] > dragged[0] && wheeled[0] < dragged[0] + spacing_mm[0] + 0.11, `from ${dragged[0]} to ${wheeled[0]} mm`);
   assert.deepEqual(wheeled.slice(1), dragged.slice(1));
   await slices.plane("Axial").focus();
   await page.keyboard.press("PageDown");
-  const paged = await slices.until((at) => at[2] !== wheeled[2], "ten planes down");
-  assert.ok(Math.abs(wheeled[2] - paged[2] - 10 * step) < 0.11);
+  const paged = await slices.until((at) => at[2] !== wheeled[2], "on the tenth slice below");
+  await page.keyboard.press("PageUp");
+  const back = await slices.until((at) => at[2] !== paged[2], "ten slices up");
+  assert.ok(Math.abs(back[2] - paged[2] - 10 * spacing_mm[2]) < 0.11, `from ${paged[2]} to ${back[2]} mm`);
   await page.getByRole("slider", { name: "Coronal slice" }).press("Home");
-  const home = await slices.until((at) => at[1] !== paged[1], "at the front");
-  assert.ok(home[1] < paged[1] - 10);
+  const home = await slices.until((at) => at[1] !== back[1], "at the front");
+  assert.ok(home[1] < back[1] - 10);
   assert.deepEqual((await slices.viewer.scene()).camera.azimuth_deg, 0, "the slices turn the view");
+});
+
+/** 10 slices of 8 mm from the patient's right (x = 0) to the left, 60 x 60 voxels of 1 mm each: 100 times their number. */
+function writeSagittal(file) {
+  const voxels = Uint16Array.from({ length: 60 * 60 * 10 }, (_, at) => 100 * Math.floor(at / 3600));
+  const header = "NRRD0004\ntype: uint16\ndimension: 3\nsizes: 60 60 10\nencoding: raw\nendian: little\nspace: left-posterior-superior\nspace directions: (0,1,0) (0,0,-1) (8,0,0)\nspace origin: (0,0,0)\n\n";
+  writeFileSync(file, Buffer.concat([Buffer.from(header), Buffer.from(voxels.buffer)]));
+  return file;
+}
+
+test("wheel, keys and slider go from one acquired slice to the next", async (t) => {
+  const slices = await openSlices(t, (folder) => [writeSagittal(join(folder, "sagittal.nrrd")), ...quick]);
+  const { page } = slices;
+  const inX = (mm) => slices.until((at) => at[0] === mm, `at ${mm} mm`);
+  const slider = (title) => page.getByRole("slider", { name: `${title} slice` });
+  assert.equal(await slider("Sagittal").getAttribute("max"), "9");
+  assert.equal(await slider("Coronal").getAttribute("max"), "59");
+  await inX(36);
+  await page.mouse.move(...(await slices.middle("Sagittal")));
+  await page.mouse.wheel(0, -100);
+  await inX(40);
+  await page.locator(".status-bar .value").filter({ hasText: /^500\b/ }).waitFor();
+  // Faster than they are drawn.
+  await slices.plane("Sagittal").evaluate((pane) => {
+    for (let i = 0; i < 3; ++i) pane.dispatchEvent(new WheelEvent("wheel", { deltaY: 100, bubbles: true, cancelable: true }));
+  });
+  await inX(16);
+  await slices.plane("Sagittal").focus();
+  await page.keyboard.press("ArrowUp");
+  await inX(24);
+  await page.keyboard.press("PageUp");
+  await inX(72);
+  await slider("Sagittal").press("ArrowLeft");
+  await inX(64);
+  await slider("Sagittal").press("Home");
+  await inX(0);
+  // From between two it is not far to the next.
+  const scale = await slices.scale("Axial");
+  const [x, y] = await slices.middle("Axial");
+  await page.mouse.click(x + 2 * scale, y);
+  const [between] = await slices.until((at) => at[0] > 36 && at[0] < 40, "between two slices");
+  assert.equal(await slider("Sagittal").inputValue(), "5", `at ${between} mm`);
+  await slices.plane("Sagittal").focus();
+  await page.keyboard.press("ArrowDown");
+  await inX(32);
 });
 
 test("a click in the picture takes the slices there, and both read the same value", async (t) => {
@@ -212,6 +258,9 @@ test("places are told by the patient's sides everywhere, and typed so", async (t
   const place = /^([RL]) ([\d.]+)\s+([AP]) ([\d.]+)\s+([IS]) ([\d.]+) mm$/;
   assert.match(await page.locator(".slice-position").innerText(), place);
   await page.getByRole("slider", { name: "Sagittal slice" }).press("Home");
+  await slices.until((at) => at[0] === 0, "on the first slice");
+  const axial = await slices.plane("Axial").boundingBox();
+  await page.mouse.click(axial.x + 4, axial.y + axial.height / 2 + 60);
   await slices.until((at) => at[0] === -0.5, "at the right side");
   const bar = page.locator(".slice-position");
   assert.match(await bar.innerText(), /^R 0\.5 /);
@@ -475,7 +524,7 @@ test("distances are measured in the slices, by pointer and by keys, and are show
   });
   const { page, viewer } = slices;
   const voice = page.getByRole("status", { name: "Measuring" });
-  const at = await slices.at();
+  let at = await slices.at();
   const lines = async () => {
     const of = (title) => slices.plane(title).locator(".measurement").count();
     return [await of("Axial"), await of("Coronal"), await of("Sagittal"), await page.locator(".view .measurement").count()];
@@ -506,6 +555,8 @@ test("distances are measured in the slices, by pointer and by keys, and are show
   await untilLines([0, 1, 0, 1]);
   await page.keyboard.press("PageDown");
   await untilLines([1, 1, 0, 1]);
+  // From between two slices, back on the nearer one.
+  at = await slices.at();
 
   // From the crosshair up and down in the sagittal plane, by keys alone; that lies in the coronal plane, too.
   await slices.plane("Sagittal").focus();

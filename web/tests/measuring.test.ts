@@ -18,13 +18,21 @@ describe("measuring", () => {
   });
 
   describe("in a slice", () => {
-    const facts = { spacing_mm: [0.5, 0.5, 2] } as unknown as VolumeFacts;
+    const facts = {
+      size: [200, 200, 20],
+      spacing_mm: [0.5, 0.5, 2],
+      direction: [1, 0, 0, 0, 1, 0, 0, 0, 1],
+      bounds_mm: [[-50, -50, -10], [50, 50, 30]],
+    } as unknown as VolumeFacts;
     const pane: PaneView = { width: 200, height: 100, center_mm: [0, 0, 10], pxPerMm: 2 };
     const axial = slicePane("axial", pane, 10, facts);
 
-    it("shows what lies within one step of the plane, where it is", () => {
-      expect(axial.place([5, -5, 10.5])).toEqual({ x: 110, y: 40 });
-      expect(axial.place([5, -5, 9.4])).toBeNull();
+    it("shows what lies in the slice or within a voxel of the plane, where it is", () => {
+      expect(axial.place([5, -5, 11])).toEqual({ x: 110, y: 40 });
+      expect(axial.place([5, -5, 8.9])).toBeNull();
+      const coronal = slicePane("coronal", pane, 0, facts);
+      expect(coronal.place([5, 0.5, 10])).toEqual({ x: 110, y: 50 });
+      expect(coronal.place([5, -0.6, 10])).toBeNull();
     });
 
     it("asks about points of its plane", () => {

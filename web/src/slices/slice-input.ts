@@ -1,4 +1,5 @@
 import { canvasOf, planes, pointOf, type PaneView, type Plane, type PlaneLayout } from "../model/slice";
+import { planesOn_mm, sliceSteps } from "../model/slice-steps";
 import { dragWindow } from "../model/window";
 import { crosshair, setCrosshair } from "../state/crosshair";
 import type { Vec3 } from "../state/scene-types";
@@ -12,20 +13,21 @@ import { dragTool, panSlices, paneView, resetSlices, setWindow, sliceWindow, zoo
 
 /** What pointers, wheel and keys do on a slice. */
 
-/** From one slice to the next: the smallest side of a voxel. */
-export const sliceStep_mm = (facts: VolumeFacts): number => Math.min(...facts.spacing_mm);
-
 /** Moves the crosshair into the plane at `mm`. */
 export function goToSlice(layout: PlaneLayout, mm: number): void {
   const now = crosshair.peek();
   if (now) setCrosshair(now.map((x, i) => (i === layout.normal ? mm : x)) as unknown as Vec3);
 }
 
-/** The pane that shows `plane` at `mm`, as distances are set in it: it shows those whose ends lie within a step of the
- * plane. */
+/** How far from the plane ends of distances are still shown: the smallest side of a voxel, or half a slice, so that
+ * every end is in a slice. */
+const reach_mm = (facts: VolumeFacts, layout: PlaneLayout): number =>
+  Math.max(Math.min(...facts.spacing_mm), sliceSteps(facts, layout.normal).step_mm / 2) * (1 + 1e-6);
+
+/** The pane that shows `plane` at `mm`, as distances are set in it. */
 export function slicePane(plane: Plane, pane: PaneView, mm: number, facts: VolumeFacts): MeasuringPane {
   const layout = planes[plane];
-  const near_mm = sliceStep_mm(facts) * (1 + 1e-6);
+  const near_mm = reach_mm(facts, layout);
   const [x, y] = canvasOf(layout, pane, crosshair.peek() ?? pane.center_mm);
   const { width, height } = pane;
   const seen = x >= 0 && x < width && y >= 0 && y < height;
@@ -52,7 +54,9 @@ const kMostWheel_px = 100;
 /** Handlers of the pane that shows `plane` at `mm` as `pane` has it, with the fingers on it. */
 export function sliceInput(plane: Plane, pane: PaneView, mm: number, facts: VolumeFacts, fingers: Fingers) {
   const layout = planes[plane];
-  const step = sliceStep_mm(facts);
+  // From where it is by now: several turns of the wheel may come before the next one is drawn.
+  const go = (by: number) =>
+    goToSlice(layout, planesOn_mm(sliceSteps(facts, layout.normal), crosshair.peek()?.[layout.normal] ?? mm, by));
   const pointOfEvent = (event: MouseEvent): Vec3 => {
     const box = (event.currentTarget as Element).getBoundingClientRect();
     return pointOf(layout, pane, mm, event.clientX - box.left, event.clientY - box.top);
@@ -120,7 +124,7 @@ export function sliceInput(plane: Plane, pane: PaneView, mm: number, facts: Volu
       const pixels = turn * (event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 33 : 1);
       const kept = Math.max(-kMostWheel_px, Math.min(kMostWheel_px, pixels));
       zoomSlices(Math.exp(-kept * kZoomOfWheel), pointOfEvent(event));
-    } else goToSlice(layout, mm - Math.sign(turn) * step * (event.shiftKey ? 10 : 1));
+    } else if (turn) go(-Math.sign(turn) * (event.shiftKey ? 10 : 1));
   };
 
   /** What keys do while distances are measured. */
@@ -138,7 +142,7 @@ export function sliceInput(plane: Plane, pane: PaneView, mm: number, facts: Volu
     const factor = { "+": kZoomOfKey, "=": kZoomOfKey, "-": 1 / kZoomOfKey }[event.key];
     if (event.ctrlKey || event.metaKey || event.altKey) return false;
     if (measuring.peek() && event.target === event.currentTarget && measure(event)) return true;
-    if (steps) goToSlice(layout, mm + steps * step);
+    if (steps) go(steps);
     else if (factor) zoomSlices(factor, crosshair.peek() ?? pane.center_mm);
     else if (event.key === "f") resetSlices();
     else return false;

@@ -1,13 +1,14 @@
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import { formatCoordinate } from "../geometry/orientation";
 import { planes, type Plane, type Size } from "../model/slice";
+import { nearestPlane, planeAt_mm, sliceSteps } from "../model/slice-steps";
 import { crosshair } from "../state/crosshair";
 import { labelPaintings } from "../state/label-colors";
 import { volume } from "../state/volume";
 import { measuring } from "../view/distances";
 import { pointAt } from "../view/probing";
 import { fingersOnPane } from "./fingers";
-import { goToSlice, sliceInput, slicePane, sliceStep_mm } from "./slice-input";
+import { goToSlice, sliceInput, slicePane } from "./slice-input";
 import { SliceMarks } from "./slice-marks";
 import { SlicePicture } from "./slice-picture";
 import { dragTool, paneView, setPaneSize } from "./state";
@@ -46,9 +47,7 @@ export function SliceView({ plane, overlay }: { plane: Plane; overlay: string })
   const fingers = useMemo(fingersOnPane, []);
   const { shown, failure } = useSlice(layout.axis, mm, overlay, labelPaintings.value[overlay]?.beside ?? []);
   if (!facts) return <div ref={root} class="slice" style={{ gridArea: plane }} />;
-  const lo = facts.bounds_mm[0][layout.normal];
-  const hi = facts.bounds_mm[1][layout.normal];
-  const step = sliceStep_mm(facts);
+  const steps = sliceSteps(facts, layout.normal);
   const input = sliceInput(plane, pane, mm, facts, fingers);
   const { letters } = layout;
   const place = `${formatCoordinate(layout.normal, mm)} mm`;
@@ -82,12 +81,12 @@ export function SliceView({ plane, overlay }: { plane: Plane; overlay: string })
         class="slice-slider"
         type="range"
         min={0}
-        max={Math.max(1, Math.round((hi - lo) / step))}
-        value={Math.round((mm - lo) / step)}
+        max={steps.count - 1}
+        value={nearestPlane(steps, mm)}
         aria-label={`${layout.title} slice`}
         aria-valuetext={place}
         onPointerDown={(event) => event.stopPropagation()}
-        onInput={(event) => goToSlice(layout, lo + Number(event.currentTarget.value) * step)}
+        onInput={(event) => goToSlice(layout, planeAt_mm(steps, Number(event.currentTarget.value)))}
       />
     </div>
   );

@@ -23,6 +23,8 @@ export interface VolumeFacts {
   name: string;
   size: Vec3;
   spacing_mm: Vec3;
+  /** 3 x 3, row by row: column a is the LPS direction of index axis a. */
+  direction: readonly number[];
   type: string;
   modality: string;
   bounds_mm: readonly [Vec3, Vec3];
