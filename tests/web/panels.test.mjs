@@ -22,6 +22,13 @@ test("labels of a file are hidden, made of a material, and undone", { skip: miss
   await viewer.page.getByRole("dialog", { name: "Add a label volume" }).getByRole("button", { name: /aal\.nii\.gz/ }).click();
   const added = await viewer.sceneWith((s) => s.proxies?.length === 1, "a label volume");
   assert.equal(added.proxies[0].lookup, "nearest");
+  // What is found is changed at once: of one side where that is meant.
+  await viewer.page.getByLabel("Search labels of aal").fill("frontal mid l");
+  await viewer.page.getByText(/^2 found/).waitFor();
+  await viewer.button("Color").click();
+  const left = await viewer.sceneWith((s) => s.transfer.rules?.length > 0, "colors");
+  assert.deepEqual(left.transfer.rules[0].points.map(({ value }) => value).sort((a, b) => a - b), [7, 9]);
+  await viewer.undo();
   await viewer.page.getByLabel("Search labels of aal").fill("frontal mid");
   await viewer.page.getByText(/^4 found/).waitFor();
   await viewer.done();

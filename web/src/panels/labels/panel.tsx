@@ -8,6 +8,7 @@ import {
   writeLooks,
   type LabelLook,
 } from "../../model/label-rules";
+import { isSought } from "../../model/label-search";
 import { mostProxies } from "../../model/rules";
 import { labelColors } from "../../state/label-colors";
 import { edit, newGesture, scene } from "../../state/scene";
@@ -99,12 +100,6 @@ export function LabelsPanel() {
   );
 }
 
-function matches(label: LabelName, search: string): boolean {
-  const words = search.toLowerCase().split(/\s+/).filter(Boolean);
-  const text = `${label.value} ${label.name}`.toLowerCase().replaceAll("_", " ");
-  return words.every((word) => text.includes(word.replaceAll("_", " ")));
-}
-
 function LabelList({ of, name }: { of: Scene; name: string }) {
   const [search, setSearch] = useState("");
   const [open, setOpen] = useState<number | null>(null);
@@ -115,7 +110,7 @@ function LabelList({ of, name }: { of: Scene; name: string }) {
   const all = listed.some((label) => label.value === 0)
     ? listed
     : [unlabelled, ...listed];
-  const found = all.filter((label) => matches({ ...label, name: titleOf(label) }, search));
+  const found = all.filter((label) => isSought(label.value, titleOf(label), search));
   const colors = labelColors.value[name];
   const write = (next: ReadonlyMap<number, LabelLook>, gesture = newGesture("labels")) =>
     edit([["/transfer/rules", writeLooks(rules, name, next)]], gesture);
