@@ -258,6 +258,9 @@ test("places are told by the patient's sides everywhere, and typed so", async (t
   const place = /^([RL]) ([\d.]+)\s+([AP]) ([\d.]+)\s+([IS]) ([\d.]+) mm$/;
   assert.match(await page.locator(".slice-position").innerText(), place);
   await page.getByRole("slider", { name: "Sagittal slice" }).press("Home");
+  await slices.until((at) => at[0] === 0, "on the first slice");
+  const axial = await slices.plane("Axial").boundingBox();
+  await page.mouse.click(axial.x + 4, axial.y + axial.height / 2 + 60);
   await slices.until((at) => at[0] === -0.5, "at the right side");
   const bar = page.locator(".slice-position");
   assert.match(await bar.innerText(), /^R 0\.5 /);
