@@ -52,7 +52,10 @@ void Opening::read(const SceneDescription& scene, std::uint64_t number) {
   const std::string name = file_name(scene.volume.path);
   const auto failed = [&](const std::string& message) { tell_status(number, {"failed", name, message, {}}); };
   const auto progress = [&](const char* stage) {
-    return [this, number, stage, name](double share) { tell_status(number, {stage, name, "", share}); };
+    return [this, number, stage, name](double share) {
+      if (outdated_) throw Cancelled();  // in the midst of what parallel_for hands out whole
+      tell_status(number, {stage, name, "", share});
+    };
   };
   try {
     outdated_ = false;
