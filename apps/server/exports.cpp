@@ -31,8 +31,8 @@ namespace asio = boost::asio;
 namespace {
 
 constexpr auto kLookEvery = std::chrono::milliseconds(250);
-/// The least priority: while something moves on screen, the picture takes all that it needs. A still picture yields
-/// (LiveSession::set_yielding).
+/// The least priority: while something moves on screen, the picture takes all that it needs. A still picture
+/// yields (LiveSession::set_yielding).
 constexpr int kNice = 19;
 
 std::vector<fs::path> pictures_in(const fs::path& folder) {
