@@ -71,15 +71,18 @@ void each_slice(const Volume& volume, Visit&& visit) {
   parallel_for(volume.size[2], 1, [&](std::int64_t k) { visit(k * count, count); });
 }
 
-/// Tells of a filter's own progress. What that throws does not pass through the library, but ends the work
-/// after it.
+/// Tells of a filter's own progress, which goes back at times where a filter is made of others. What telling
+/// throws does not pass through the library, but ends the work after it.
 template <class Filter>
 typename Filter::OutputImageType::Pointer run(Filter& filter, const Progress& progress) {
   std::exception_ptr thrown;
+  float told = 0;
   if (progress)
     filter.AddObserver(itk::ProgressEvent(), [&](const itk::EventObject&) {
+      if (thrown || filter.GetProgress() <= told) return;
+      told = filter.GetProgress();
       try {
-        if (!thrown) progress(filter.GetProgress());
+        progress(told);
       } catch (...) {
         thrown = std::current_exception();
       }
