@@ -4,27 +4,14 @@
 #include <sys/syscall.h>
 
 #include <fstream>
+#include <iterator>
 #include <sstream>
+#include <utility>
 
 namespace voxlume {
 namespace {
 
-/// The processor time fields of /proc/PID/stat; empty when it cannot be read.
-std::string processor_time(const std::string& folder) {
-  std::ifstream file(folder + "/stat");
-  std::string line;
-  if (!std::getline(file, line)) return {};
-  const std::size_t name_end = line.rfind(')');
-  if (name_end == std::string::npos) return {};
-  std::istringstream fields(line.substr(name_end + 1));
-  std::string word;
-  constexpr int kFieldsBefore = 11;  // state to cmajflt; utime and stime follow
-  for (int i = 0; i < kFieldsBefore; ++i) fields >> word;
-  std::string user;
-  std::string system;
-  fields >> user >> system;
-  return user + " " + system;
-}
+using Sight = DeadlockWatch::Sight;
 
 /// The system call the child is in with its arguments, when it is a wait for a lock; else empty.
 std::string lock_wait(const std::string& folder) {
@@ -34,16 +21,47 @@ std::string lock_wait(const std::string& folder) {
   return line;
 }
 
+std::string whole_file(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+Sight look_at(const std::string& folder) {
+  Sight out{.lock_wait = lock_wait(folder), .io = whole_file(folder + "/io")};
+  const std::string stat = whole_file(folder + "/stat");
+  const std::size_t name_end = stat.rfind(')');
+  if (name_end == std::string::npos) return {};
+  std::istringstream fields(stat.substr(name_end + 1));
+  std::string skipped;
+  constexpr int kFieldsBefore = 7;  // state to flags; minflt, cminflt, majflt, cmajflt, utime, stime follow
+  for (int i = 0; i < kFieldsBefore; ++i) fields >> skipped;
+  std::uint64_t minor = 0, major = 0;
+  fields >> minor >> skipped >> major >> skipped >> out.user_ticks >> out.system_ticks;
+  out.faults = minor + major;
+  return out;
+}
+
+/// Blocked for good, as far as two sights tell.
+bool is_same_wait(const Sight& before, const Sight& now) {
+  return !now.lock_wait.empty() && now.lock_wait == before.lock_wait && now.user_ticks == before.user_ticks &&
+         now.system_ticks == before.system_ticks;
+}
+
+/// Asks the system again and again for nothing.
+bool only_yields(const Sight& before, const Sight& now) {
+  const std::uint64_t user = now.user_ticks - before.user_ticks;
+  const std::uint64_t system = now.system_ticks - before.system_ticks;
+  return system > user && !now.io.empty() && now.io == before.io && now.faults == before.faults;
+}
+
 }  // namespace
 
 DeadlockWatch::DeadlockWatch(pid_t child) : folder_(fmt::format("/proc/{}", child)) {}
 
 bool DeadlockWatch::is_deadlocked() {
   constexpr int kEnoughRepeats = 4;
-  const std::string wait = lock_wait(folder_);
-  const std::string seen = wait.empty() ? "" : wait + " " + processor_time(folder_);
-  repeats_ = !seen.empty() && seen == last_seen_ ? repeats_ + 1 : 0;
-  last_seen_ = seen;
+  const Sight before = std::exchange(last_, look_at(folder_));
+  repeats_ = is_same_wait(before, last_) || only_yields(before, last_) ? repeats_ + 1 : 0;
   return repeats_ >= kEnoughRepeats;
 }
 
