@@ -127,12 +127,21 @@ void set_member(Json& scene, const std::string& pointer, const Json& value) {
   }
 }
 
+namespace {
+
+SceneDescription edited(Json scene, const std::vector<FieldEdit>& fields) {
+  for (const auto& [pointer, value] : fields) set_member(scene, pointer, value);
+  return parsed(scene);
+}
+
+}  // namespace
+
 Document::Document(SceneDescription scene, Rules rules)
     : rules_(std::move(rules)),
       scene_(std::make_shared<const SceneDescription>(std::move(scene))),
       json_(Json::parse(write_scene(*scene_, true))) {}
 
-Document::Accepted Document::accept(SceneDescription scene) const {
+SceneDescription Document::allowed(SceneDescription scene) const {
   if (!(scene.volume == scene_->volume))
     refuse("/volume", "the volume is another one; open its file instead, or load the scene as a whole");
   const auto pixels = static_cast<std::int64_t>(scene.image.width) * scene.image.height;
@@ -141,7 +150,11 @@ Document::Accepted Document::accept(SceneDescription scene) const {
                                std::to_string(scene.image.height) + ", expected at most " +
                                std::to_string(kMostPixels) + " pixels on screen");
   rules_.check_paths(scene, *scene_);
-  Accepted accepted{rules_.resolve(scene), {}};
+  return rules_.resolve(scene);
+}
+
+Document::Accepted Document::accept(const SceneDescription& scene) const {
+  Accepted accepted{allowed(scene), {}};
   accepted.json = Json::parse(write_scene(accepted.scene, true));
   return accepted;
 }
@@ -190,9 +203,11 @@ void Document::forget_oldest() {
 }
 
 Json Document::edit(const std::vector<FieldEdit>& fields, const std::string& gesture) {
-  Json wanted = json_;
-  for (const auto& [pointer, value] : fields) set_member(wanted, pointer, value);
-  return become(accept(parsed(wanted)), gesture);
+  return become(accept(edited(json_, fields)), gesture);
+}
+
+SceneDescription Document::with(const std::vector<FieldEdit>& fields) const {
+  return allowed(edited(json_, fields));
 }
 
 void Document::replace(const SceneDescription& scene) { become(accept(scene), ""); }

@@ -44,6 +44,11 @@ class Document {
   /// Throws Error, its where() the field's address ("/transfer/points/2/value").
   nlohmann::json edit(const std::vector<FieldEdit>& fields, const std::string& gesture = "");
 
+  /// The scene with these fields set, which it does not become. Throws Error, as edit().
+  SceneDescription with(const std::vector<FieldEdit>& fields) const;
+  /// Another scene of this volume with what it leaves open filled in. Throws Error.
+  SceneDescription resolved(const SceneDescription& scene) const { return rules_.resolve(scene); }
+
   /// Another scene for the same volume, in one step. Throws Error, as edit().
   void replace(const SceneDescription& scene);
 
@@ -63,7 +68,8 @@ class Document {
     nlohmann::json json;
   };
 
-  Accepted accept(SceneDescription scene) const;
+  SceneDescription allowed(SceneDescription scene) const;
+  Accepted accept(const SceneDescription& scene) const;
   nlohmann::json become(Accepted accepted, const std::string& gesture);
   bool take_step(std::deque<Step>& from, std::deque<Step>& to, nlohmann::json Step::*members);
   /// The step that an edit of `gesture`, which changed these members, belongs to; null: a new one.

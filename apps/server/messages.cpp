@@ -73,16 +73,14 @@ std::optional<double> number_or_null(const json& message, const char* name, doub
   return number(value, std::string("/") + name, lower, upper);
 }
 
-EditMessage read_edit(const json& message) {
-  EditMessage out;
-  out.seq = whole(member(message, "seq"), "/seq");
-  out.gesture = optional_text(message, "gesture");
+std::vector<FieldEdit> fields(const json& message) {
+  std::vector<FieldEdit> out;
   const json& set = member(message, "set");
   if (!set.is_array()) refuse("/set", "expected a list of [address, value]");
   for (std::size_t i = 0; i < set.size(); ++i) {
     const std::string where = "/set/" + std::to_string(i);
     if (!set[i].is_array() || set[i].size() != 2) refuse(where, "expected [address, value]");
-    out.set.emplace_back(text(set[i][0], where + "/0"), set[i][1]);
+    out.emplace_back(text(set[i][0], where + "/0"), set[i][1]);
   }
   return out;
 }
@@ -113,7 +111,10 @@ ProbeMessage read_probe(const json& message) {
 PageMessage parse_message(std::string_view frame) {
   const json message = parse_object(frame);
   const std::string type = text(member(message, "type"), "/type");
-  if (type == "edit") return read_edit(message);
+  if (type == "edit")
+    return EditMessage{whole(member(message, "seq"), "/seq"), fields(message),
+                       optional_text(message, "gesture")};
+  if (type == "passing") return PassingMessage{whole(member(message, "seq"), "/seq"), fields(message)};
   if (type == "undo") return UndoMessage{};
   if (type == "redo") return RedoMessage{};
   if (type == "load") return read_load(message);

@@ -19,6 +19,10 @@ struct EditMessage {
   std::vector<FieldEdit> set;
   std::string gesture;
 };
+struct PassingMessage {
+  std::int64_t seq = 0;
+  std::vector<FieldEdit> set;
+};
 struct UndoMessage {};
 struct RedoMessage {};
 struct LoadMessage {
@@ -47,9 +51,9 @@ struct ShownMessage {
   std::uint64_t frame = 0;
 };
 
-using PageMessage =
-    std::variant<EditMessage, UndoMessage, RedoMessage, LoadMessage, OpenMessage, SplitMessage, SeekMessage,
-                 ProbeMessage, ExportMessage, CancelExportMessage, DrawPresetsMessage, ShownMessage>;
+using PageMessage = std::variant<EditMessage, PassingMessage, UndoMessage, RedoMessage, LoadMessage,
+                                 OpenMessage, SplitMessage, SeekMessage, ProbeMessage, ExportMessage,
+                                 CancelExportMessage, DrawPresetsMessage, ShownMessage>;
 
 /// Reads a text frame. Throws Error: kBadFormat where it is no JSON object of bounded depth, kBadParameter
 /// where a member is missing or wrong; where() is the member ("/set/0/0"). A member that is not known is

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "base/file_extension.h"
-#include "scene/animation.h"
 #include "scene/scene_file.h"
 #include "server/hello.h"
 #include "server/probe.h"
@@ -117,8 +116,7 @@ void SharedView::opened(std::shared_ptr<OpenedVolume> volume) {
   volume_ = std::move(volume);
   *volume_->numbering = {last_frame_, revision_};
   frame_.reset();
-  seek_s_.reset();
-  seeking_ = nullptr;
+  passing_ = {};
   thumbnails_.forget();
   watch_or_rest();
   volume_->session->set_split(split_);
@@ -141,15 +139,11 @@ void SharedView::keep_screen_size(SceneDescription& scene) const {
 }
 
 void SharedView::show() {
-  SceneDescription scene = document_->scene();
-  if (seek_s_ && scene.animation) {
-    try {
-      scene = volume_->session->resolved(scene_at(scene, *seek_s_));
-    } catch (const Error& error) {
-      return tell_trouble(error.what());
-    }
+  try {
+    revision_ = volume_->session->show(passing_.over(*document_)) + volume_->numbering->revisions_before;
+  } catch (const Error& error) {
+    tell_trouble(error.what());
   }
-  revision_ = volume_->session->show(std::move(scene)) + volume_->numbering->revisions_before;
 }
 
 void SharedView::join(const std::shared_ptr<Viewer>& viewer) {
@@ -168,11 +162,7 @@ void SharedView::leave(Viewer& viewer) {
   const auto found = viewers_.find(&viewer);
   if (found == viewers_.end()) return;
   viewers_.erase(found);
-  if (seeking_ == &viewer) {  // nobody else would end it
-    seeking_ = nullptr;
-    seek_s_.reset();
-    show();
-  }
+  if (passing_.leave(viewer)) show();
   watch_or_rest();
   tell_all({{"type", "viewers"}, {"count", viewers_.size()}});
 }
@@ -212,6 +202,14 @@ void SharedView::take(Viewer& from, const EditMessage& message) {
     screen_size_ = {document.scene().image.width, document.scene().image.height};
   Json edited = edited_message(sections);
   if (!sections.empty()) tell_all(edited, &from);
+  edited["seq"] = message.seq;
+  from.send(shared_text(edited));
+}
+
+void SharedView::take(Viewer& from, const PassingMessage& message) {
+  open_document().with(message.set);  // throws what is wrong with it
+  if (passing_.set(from, message.set)) show();
+  Json edited = edited_message(Json::object());
   edited["seq"] = message.seq;
   from.send(shared_text(edited));
 }
@@ -262,10 +260,7 @@ void SharedView::take(Viewer&, const SplitMessage& message) {
 
 void SharedView::take(Viewer& from, const SeekMessage& message) {
   open_document();
-  seeking_ = message.time_s ? &from : nullptr;
-  if (seek_s_ == message.time_s) return;
-  seek_s_ = message.time_s;
-  show();
+  if (passing_.seek(from, message.time_s)) show();
 }
 
 void SharedView::take(Viewer& from, const ProbeMessage& message) {

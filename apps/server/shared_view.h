@@ -16,6 +16,7 @@
 #include "server/hello.h"
 #include "server/messages.h"
 #include "server/opening.h"
+#include "server/passing.h"
 #include "server/scene_files.h"
 #include "server/thumbnails.h"
 
@@ -77,6 +78,7 @@ class SharedView {
   using Json = nlohmann::json;
 
   void take(Viewer& from, const EditMessage& message);
+  void take(Viewer& from, const PassingMessage& message);
   void take(Viewer& from, const UndoMessage&);
   void take(Viewer& from, const RedoMessage&);
   void take(Viewer& from, const LoadMessage& message);
@@ -126,8 +128,8 @@ class SharedView {
   std::uint64_t last_frame_ = 0;  ///< number of the newest frame, as viewers know it
   Json status_;
   std::optional<std::pair<int, int>> screen_size_;  ///< what a page asked for last
-  std::optional<double> split_, seek_s_;
-  const Viewer* seeking_ = nullptr;  ///< whose page asked for seek_s_ last
+  std::optional<double> split_;
+  Passing passing_;
   int temporary_files_ = 0;
   std::vector<std::function<void(std::shared_ptr<const LiveFrame>)>> awaiting_still_;
   boost::asio::steady_timer still_timer_;

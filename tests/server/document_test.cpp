@@ -245,7 +245,7 @@ TEST_F(DocumentTest, AGestureTakesUpFurtherMembersUnlessTheyWereChangedInBetween
   document.edit({{"/camera/azimuth_deg", 1}}, "1 g");
   document.edit({{"/image/exposure_ev", 1}}, "2 g");
   document.edit({{"/camera/azimuth_deg", 2}, {"/clip", {{"x_mm", {-1, 1}}}}}, "1 g");  // joins
-  document.edit({{"/image/exposure_ev", 2}}, "1 g");                                  // does not
+  document.edit({{"/image/exposure_ev", 2}}, "1 g");                                   // does not
   document.undo();
   EXPECT_EQ(document.scene().image.exposure_ev, 1);
   EXPECT_TRUE(document.scene().clip);

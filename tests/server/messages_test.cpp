@@ -21,6 +21,10 @@ TEST(Messages, AreRead) {
   EXPECT_EQ(edit.set[0].second, 2);
   EXPECT_TRUE(edit.set[1].second.is_null());
   EXPECT_EQ(edit.gesture, "orbit-17");
+  const auto passing =
+      read<PassingMessage>(R"({"type":"passing","seq":8,"set":[["/lights/0/intensity",2]]})");
+  EXPECT_EQ(passing.seq, 8);
+  EXPECT_EQ(passing.set, (std::vector<FieldEdit>{{"/lights/0/intensity", 2}}));
   EXPECT_EQ(read<SplitMessage>(R"({"type":"split","at":0.5})").at, 0.5);
   EXPECT_EQ(read<SplitMessage>(R"({"type":"split","at":null})").at, std::nullopt);
   EXPECT_EQ(read<SeekMessage>(R"({"type":"seek","time_s":1.5})").time_s, 1.5);

@@ -537,6 +537,72 @@ TEST_F(Socket, APageThatGoesEndsItsSeeking) {
   EXPECT_EQ(back["camera"], still["camera"]);
 }
 
+json passing(int seq, const std::vector<std::pair<std::string, json>>& fields) {
+  json message = edit(seq, fields);
+  message["type"] = "passing";
+  return message;
+}
+
+TEST_F(Socket, WhatIsSetInPassingIsSeenAndNotKept) {
+  Page page(start_with_ramp());
+  const json still = page.next("frame", [](const json& m) { return m["done"] == true; });
+  page.send(passing(1, {{"/camera/azimuth_deg", 180}}));
+  const json answer = page.next("edited");
+  EXPECT_EQ(answer["seq"], 1);
+  EXPECT_EQ(answer["sections"], json::object());
+  EXPECT_EQ(answer["can_undo"], false);
+  const json behind = page.next("frame", [&](const json& m) { return m["revision"] == answer["revision"]; });
+  EXPECT_NEAR(behind["camera"]["eye_mm"][1].get<double>(), -still["camera"]["eye_mm"][1].get<double>(), 0.01);
+  EXPECT_EQ(json::parse(get(*address_, "/api/scene.json").body)["camera"].value("azimuth_deg", 0.0), 0);
+  {
+    Page other(*address_);
+    EXPECT_EQ(other.next("scene")["scene"]["camera"]["azimuth_deg"], 0);
+    EXPECT_EQ(other.next("frame")["camera"], behind["camera"]);
+    // It stays with the edits of others.
+    other.send(edit(1, "/camera/zoom", 2));
+    other.next("edited");
+  }
+  const json edited = page.next("edited", [](const json& m) { return !m["sections"].empty(); });
+  const json both = page.next("frame", [&](const json& m) { return m["revision"] == edited["revision"]; });
+  const double behind_mm = behind["camera"]["eye_mm"][1];
+  EXPECT_NEAR(both["camera"]["eye_mm"][1].get<double>(), behind_mm / 2, 0.01);
+  page.send(passing(2, {}));
+  const json after = page.next("edited");
+  const json back = page.next("frame", [&](const json& m) { return m["revision"] == after["revision"]; });
+  EXPECT_NEAR(back["camera"]["eye_mm"][1].get<double>(), -behind_mm / 2, 0.01);
+}
+
+TEST_F(Socket, APageThatGoesTakesAlongWhatItSetInPassing) {
+  Page page(start_with_ramp());
+  const json still = page.next("frame", [](const json& m) { return m["done"] == true; });
+  {
+    Page other(*address_);
+    other.send(passing(1, {{"/camera/azimuth_deg", 90}}));
+    page.next("frame", [&](const json& m) { return m["camera"] != still["camera"]; });
+    other.cut();
+  }
+  page.next("frame", [&](const json& m) { return m["camera"] == still["camera"]; });
+}
+
+TEST_F(Socket, WhatDoesNotFitIsNotSetInPassing) {
+  Page page(start_with_ramp());
+  page.next("scene");
+  page.send(passing(1, {{"/lights/7/intensity", 2}}));
+  EXPECT_EQ(page.next("refused")["seq"], 1);
+  page.send(passing(2, {{"/volume/path", "labels.nrrd"}}));
+  EXPECT_EQ(page.next("refused")["seq"], 2);
+  // A light that is taken away meanwhile.
+  page.send(edit(3, "/lights/-", {{"kind", "point"}, {"position_mm", {0, -50, 0}}}));
+  const json lights = page.next("edited")["sections"]["lights"];
+  const std::string last = "/lights/" + std::to_string(lights.size() - 1);
+  page.send(passing(4, {{last + "/intensity", 2}}));
+  EXPECT_EQ(page.next("edited")["seq"], 4);
+  page.send(edit(5, last, nullptr));
+  const json gone = page.next("edited");
+  EXPECT_EQ(gone["seq"], 5);
+  page.next("frame", [&](const json& m) { return m["revision"] == gone["revision"] && m["done"] == true; });
+}
+
 TEST_F(Socket, ProbesFindPlaceValueAndLabel) {
   Page page(start_with_ramp());
   page.send(edit(1, "/labels", {{"path", "labels.nrrd"}}));

@@ -44,7 +44,7 @@ function watchSocket() {
     }
     send(text) {
       const message = JSON.parse(text);
-      if (message.type === "edit") seen.edit = message.seq;
+      if (message.type === "edit" || message.type === "passing") seen.edit = message.seq;
       if (message.type === "undo" || message.type === "redo" || message.type === "load") ++seen.scenes;
       if (message.type === "shown") seen.shown = seen.frames.findLast((header) => header.frame === message.frame);
       super.send(text);

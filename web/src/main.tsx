@@ -5,6 +5,7 @@ import { announceTrouble } from "./shell/notices";
 import { keepOnePanel } from "./shell/small-window";
 import { applyTheme } from "./shell/theme";
 import { connect, on } from "./state/connection";
+import { flushEdits } from "./state/scene";
 import "./styles/tokens.css";
 import "./styles/base.css";
 import "./styles/controls.css";
@@ -22,4 +23,5 @@ render(<App />, document.getElementById("page")!);
 // A link to a scene is opened once the server is there, also when it is put into the address of an open page.
 on("hello", () => void openLinkedScene());
 addEventListener("hashchange", () => void openLinkedScene());
+addEventListener("pagehide", flushEdits);
 connect();

@@ -53,6 +53,20 @@ describe("the scene on the page", () => {
     expect(Socket.last.url.href).toBe("wss://host:8080/api/socket");
   });
 
+  it("leaves alone what is only shown in passing", async () => {
+    const { edit, showPassing, scene: shown, refusal } = await start();
+    edit([["/camera/zoom", 2]], "drag");
+    edit([["/camera/zoom", 3]], "drag");
+    showPassing([["/camera/azimuth_deg", 90]]);
+    const types = Socket.last.sent.map(({ type, seq }) => `${type} ${seq}`);
+    expect(types.slice(-2)).toEqual(["edit 1", "passing 2"]); // in the order in which they were made
+    expect(shown.value!.camera.azimuth_deg).toBe(0);
+    Socket.last.say({ type: "edited", seq: 2, revision: 4, sections: {}, can_undo: true, can_redo: false });
+    showPassing([["/lights/7/intensity", 1]]);
+    Socket.last.say({ type: "refused", seq: 3, where: "/lights/7", message: "the list has 1 element" });
+    expect(refusal.value).toBeNull();
+  });
+
   it("shows an edit at once and takes it back when it is refused", async () => {
     const { edit, scene: shown, refusal } = await start();
     const transfer = shown.value!.transfer;

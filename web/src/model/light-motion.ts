@@ -44,35 +44,6 @@ export function flashFactor(share: number): number {
   return flashLowest + (1 - flashLowest) * (0.5 + 0.5 * Math.cos(2 * Math.PI * share));
 }
 
-/** A flash of a scene's light that is under way, or was broken off. */
-export interface Flash {
-  /** Path of the scene's volume. */
-  volume: string;
-  light: number;
-  /** Lights in the scene. */
-  count: number;
-  /** The intensity that the light has when it does not flash. */
-  own: number;
-  /** The intensity that it was given last; null: not known whether that has arrived. */
-  shown: number | null;
-}
-
-/** Scenes hold intensities in single precision. */
-const isNear = (a: number, b: number) => Math.abs(a - b) <= 1e-5 * Math.max(Math.abs(a), Math.abs(b));
-
-/** The light that still has an intensity of the flash: others may have added or removed lights, or set its intensity.
- * Null: none has. */
-export function dimmedLight(flash: Flash, lights: readonly Light[]): number | null {
-  const { light, count, own, shown } = flash;
-  const isDimmed = ({ intensity }: Light) =>
-    shown === null
-      ? intensity <= own && (intensity >= own * flashLowest || isNear(intensity, own * flashLowest))
-      : isNear(intensity, shown);
-  if (lights.length === count) return lights[light] && isDimmed(lights[light]) ? light : null;
-  const index = shown === null ? -1 : lights.findIndex(isDimmed);
-  return index < 0 ? null : index;
-}
-
 /** Keys of a turn: positions are joined by straight lines, which leave the circle by 1 % at most. */
 const keysOfTurn = 24;
 

@@ -7,6 +7,7 @@ export type Assignment = readonly [pointer: string, value: unknown];
 
 export type PageMessage =
   | { type: "edit"; seq: number; set: readonly Assignment[]; gesture?: string }
+  | { type: "passing"; seq: number; set: readonly Assignment[] }
   | { type: "undo" }
   | { type: "redo" }
   | { type: "load"; scene: unknown }

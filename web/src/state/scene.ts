@@ -84,6 +84,17 @@ export function edit(set: readonly Assignment[], gesture?: string): void {
   else flushEdits();
 }
 
+let passingSeq = 0;
+
+/** Shows the scene with other values of these fields, without changing it, until something else is shown in passing;
+ * an empty list: as it is. */
+export function showPassing(set: readonly Assignment[]): void {
+  if (!state.value) return;
+  flushEdits();
+  passingSeq = ++lastSeq;
+  send({ type: "passing", seq: passingSeq, set });
+}
+
 export function undo(): void {
   flushEdits();
   send({ type: "undo" });
@@ -130,6 +141,8 @@ on("edited", (message) =>
 
 on("refused", (message) =>
   batch(() => {
+    // Somebody else has changed the scene in the meantime; nothing of it is lost.
+    if (message.seq === passingSeq) return;
     if (state.value) state.value = edits.refused(state.value, message.seq);
     refusal.value = { where: message.where, message: message.message };
   }),

@@ -1,7 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { distance } from "../../src/geometry/vec3";
 import {
-  dimmedLight,
   flashFactor,
   flashLowest,
   flashTrack,
@@ -9,7 +8,6 @@ import {
   orbitTrack,
   placed,
   placeOf,
-  type Flash,
 } from "../../src/model/light-motion";
 import type { Light, Vec3 } from "../../src/state/scene-types";
 
@@ -72,30 +70,5 @@ describe("motion of lights as tracks", () => {
       [1, 0.5],
       [2, 5],
     ]);
-  });
-});
-
-describe("a light that flashes", () => {
-  const flash: Flash = { volume: "head", light: 1, count: 3, own: 50, shown: 20.4 };
-  const lights = (...intensities: number[]): Light[] => intensities.map((intensity) => ({ ...rect, intensity }));
-
-  it("is known by the intensity that it was given, in single precision", () => {
-    expect(dimmedLight(flash, lights(20.4, Math.fround(20.4), 7))).toBe(1);
-    expect(dimmedLight(flash, lights(20.4, 21, 7))).toBeNull();
-  });
-
-  it("is found where other lights have come or gone", () => {
-    expect(dimmedLight(flash, lights(20.4, 7))).toBe(0);
-    expect(dimmedLight(flash, lights(3, 20.4, 7, 3))).toBe(1);
-    expect(dimmedLight(flash, lights(3, 7))).toBeNull();
-  });
-
-  it("is what has an intensity of the flash, where the last one may not have arrived", () => {
-    const lost = { ...flash, shown: null };
-    expect(dimmedLight(lost, lights(1, 5, 1))).toBe(1);
-    expect(dimmedLight(lost, lights(1, 50, 1))).toBe(1);
-    expect(dimmedLight(lost, lights(1, 51, 1))).toBeNull();
-    expect(dimmedLight(lost, lights(1, 4.9, 1))).toBeNull();
-    expect(dimmedLight(lost, lights(5, 5))).toBeNull();
   });
 });

@@ -135,7 +135,7 @@ function MotionFields({ of, index }: { of: Scene; index: number }) {
       />
       <Toggle
         label="Flash"
-        hint="The intensity goes down and up again, until you set another"
+        hint="The light is seen dim and bright in turn; the scene keeps its intensity"
         value={now === "flash"}
         onChange={toggle("flash")}
       />
