@@ -108,9 +108,10 @@ int run(int argc, char** argv) {
     return report(kBadUsage, error.what());
   }
   if (!action)
-    return report(kBadUsage,
-                  "no command; expected one of render, view, info, convert, denoise, compare, presets, materials, "
-                  "schema (see voxlume --help)");
+    return report(
+        kBadUsage,
+        "no command; expected one of render, view, info, convert, denoise, compare, presets, materials, "
+        "schema (see voxlume --help)");
   return action();
 }
 

@@ -31,7 +31,8 @@ json folder_listing(const Roots& roots, const std::string& path) {
   const fs::path folder = roots.resolve(path);
   const fs::path relative = folder.lexically_relative(roots.folder());
   if (relative.empty() || *relative.begin() == "..")
-    throw Error(ErrorCode::kBadParameter, path, "leads out of the folder of this viewer; start it with --folder to list others");
+    throw Error(ErrorCode::kBadParameter, path,
+                "leads out of the folder of this viewer; start it with --folder to list others");
   std::error_code failed;
   if (!fs::is_directory(folder, failed)) throw Error(ErrorCode::kFileNotFound, path, "is no folder");
   struct Entry {

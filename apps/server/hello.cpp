@@ -28,7 +28,8 @@ constexpr KnownSample kKnownSamples[] = {
     {"mri-head.nii.gz", "Head, MRI", "T1-weighted MRI of a head"},
     {"mri-brain.nii.gz", "Brain, MRI", "T1-weighted MRI of a brain without its skull"},
     {"simulated-pet.nrrd", "Brain, simulated PET", "Activity in the brain of the MRI, on its own grid"},
-    {"../examples/brain-regions.json", "Brain regions", "A scene: 116 regions of the AAL atlas, each its material"},
+    {"../examples/brain-regions.json", "Brain regions",
+     "A scene: 116 regions of the AAL atlas, each its material"},
     {"../examples/brodmann-areas.json", "Brodmann areas", "A scene: areas of the cortex, each its material"},
 };
 

@@ -26,7 +26,8 @@ std::uint64_t bytes_of(const fs::path& file) {
 
 void check_name(const std::string& name, const char* where) {
   if (!is_plain_file_name(name))
-    throw Error(ErrorCode::kBadParameter, where, "expected the name of a file, without folders, of at most 200 bytes; rename it");
+    throw Error(ErrorCode::kBadParameter, where,
+                "expected the name of a file, without folders, of at most 200 bytes; rename it");
 }
 
 }  // namespace

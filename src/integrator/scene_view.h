@@ -70,8 +70,9 @@ struct VisibilityView {
 /// Steps along rays in place of flights (integrator/ray_march.h), trackers.step_mm long.
 struct RayMarchView {
   bool on = false;
-  bool jitter = true;         ///< rays begin anywhere in the first step, else in its middle
-  bool counts_steps = false;  ///< importance is summed over steps: visibility.weights are per step, not per mm
+  bool jitter = true;  ///< rays begin anywhere in the first step, else in its middle
+  bool counts_steps =
+      false;  ///< importance is summed over steps: visibility.weights are per step, not per mm
 };
 
 struct VirtualLight;

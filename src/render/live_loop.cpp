@@ -170,7 +170,9 @@ RenderStatus LiveSession::Loop::trace(RenderState& state, const StopRule& stop,
 RenderProgress LiveSession::Loop::overall(const RenderProgress& pass) const {
   RenderProgress out = pass;
   out.remaining_s.reset();
-  const auto at_most = [&](double s) { out.remaining_s = std::max(0.0, std::min(s, out.remaining_s.value_or(s))); };
+  const auto at_most = [&](double s) {
+    out.remaining_s = std::max(0.0, std::min(s, out.remaining_s.value_or(s)));
+  };
   const ImageDescription& image = scene_->image;
   const double spp_per_s = pass.samples_per_s / image.width / image.height;
   if (image.seconds) at_most(*image.seconds - pass.elapsed_s);
@@ -188,7 +190,8 @@ void LiveSession::Loop::move() {
   scene.image.width = size.width;
   scene.image.height = size.height;
   scene.render.frame += ++drawn_;
-  if (scene.visibility) scene.visibility->ray_passes = std::min(scene.visibility->ray_passes, kMovingRayPasses);
+  if (scene.visibility)
+    scene.visibility->ray_passes = std::min(scene.visibility->ray_passes, kMovingRayPasses);
   spent_ = {};
   still_compiled_ = false;
   spent_.compile_s = seconds_of([&] { compile(std::move(scene), false); });

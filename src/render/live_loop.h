@@ -80,9 +80,10 @@ class LiveSession::Loop {
   Shown shown_ = Shown::kNot;
   bool hurried_ = false;  ///< the last wish came before the one before it was at rest
   std::optional<RenderState> moving_, still_;
-  std::shared_ptr<const LiveFrame> on_screen_;  ///< the picture of moving_, until one of still_ takes its place
-  int first_still_spp_ = 0;                     ///< from which on it does
-  bool still_compiled_ = false;  ///< what is compiled is scene_ at its full size
+  std::shared_ptr<const LiveFrame>
+      on_screen_;                          ///< the picture of moving_, until one of still_ takes its place
+  int first_still_spp_ = 0;                ///< from which on it does
+  bool still_compiled_ = false;            ///< what is compiled is scene_ at its full size
   std::shared_ptr<const Image> denoised_;  ///< of still_ as it is, or null
   std::optional<PictureDenoiser> denoiser_;
   std::string denoiser_name_;

@@ -29,21 +29,21 @@ struct LiveFrame {
   bool moving = false;         ///< drawn for speed, perhaps smaller than asked for
   bool hurried = false;        ///< still, but edits come one after the other; it comes again after the last
   bool done = false;           ///< a stop rule of the scene is reached; the next frame follows an edit
-  Image8 picture;              ///< developed, of the size it was traced at; left of the split without denoiser
+  Image8 picture;  ///< developed, of the size it was traced at; left of the split without denoiser
   std::shared_ptr<const Image> linear;  ///< what was developed, denoised; with metadata where not moving
   /// From the eye to what stands for the pixel [mm], 0 where nothing does; a value a pixel of `picture`.
   std::vector<float> depth_mm;
-  CameraView camera{};           ///< [LPS mm]
-  int width = 0, height = 0;     ///< what the scene asks for
-  double spp = 0;                ///< samples per pixel of `picture`
-  std::optional<double> noise;   ///< as in StopRule; absent while moving
+  CameraView camera{};                                              ///< [LPS mm]
+  int width = 0, height = 0;                                        ///< what the scene asks for
+  double spp = 0;                                                   ///< samples per pixel of `picture`
+  std::optional<double> noise;                                      ///< as in StopRule; absent while moving
   double compile_s = 0, trace_s = 0, denoise_s = 0, develop_s = 0;  ///< spent on this frame
-  double frame_s = 0;            ///< from taking the edit, or the frame before, to this one
+  double frame_s = 0;  ///< from taking the edit, or the frame before, to this one
   LiveLimit limit = LiveLimit::kTracing;
 };
 
-/// Whom a LiveSession tells: one call at a time, by threads of its own. All may be empty; they must not throw,
-/// wait for the session or destroy it.
+/// Whom a LiveSession tells: one call at a time, by threads of its own. All may be empty; they must not
+/// throw, wait for the session or destroy it.
 struct LiveListener {
   /// A new picture. While this runs nothing is traced, so that what it does counts as the frame's time.
   std::function<void(std::shared_ptr<const LiveFrame>)> frame;
@@ -59,10 +59,10 @@ struct LiveListener {
 };
 
 struct LiveOptions {
-  int threads = 0;                      ///< 0: all the machine has
-  double frame_budget_s = 1.0 / 30;     ///< of a frame while the view moves
-  double rest_s = 0.25;                 ///< a view without edits for so long is still
-  double patience_s = 1;                ///< what takes longer is told of
+  int threads = 0;                   ///< 0: all the machine has
+  double frame_budget_s = 1.0 / 30;  ///< of a frame while the view moves
+  double rest_s = 0.25;              ///< a view without edits for so long is still
+  double patience_s = 1;             ///< what takes longer is told of
 };
 
 /// A volume on screen: takes edits at any time from any thread and answers with pictures.
@@ -87,21 +87,21 @@ class LiveSession {
   /// Its volume and description; what is compiled is for the session's own thread alone.
   const Session& session() const { return session_; }
 
-  /// Asks for the picture of `scene`, which is resolved and of this volume, in place of what was asked before.
-  /// Returns its revision, which grows by 1 with every call. Any thread; never waits for rendering.
+  /// Asks for the picture of `scene`, which is resolved and of this volume, in place of what was asked
+  /// before. Returns its revision, which grows by 1 with every call. Any thread; never waits for rendering.
   std::uint64_t show(SceneDescription scene);
   /// The part of the picture from the left that is shown without denoiser; absent: none. [0, 1]
   void set_split(std::optional<double> split);
   /// Nothing is rendered while nobody watches. Watched unless told otherwise.
   void set_watched(bool watched);
 
-  /// While something else needs the processors, a still picture stays as it was first shown, and is not refined.
-  /// Off unless told otherwise.
+  /// While something else needs the processors, a still picture stays as it was first shown, and is not
+  /// refined. Off unless told otherwise.
   void set_yielding(bool yielding);
 
-  /// Asks for a small picture of another scene of this volume, `spp` samples without denoiser, as large as its
-  /// image says: drawn when the view is still and watched, one after the other, and handed to `done` by the session's
-  /// thread; an empty one (0 x 0) where it failed or the session ended.
+  /// Asks for a small picture of another scene of this volume, `spp` samples without denoiser, as large as
+  /// its image says: drawn when the view is still and watched, one after the other, and handed to `done` by
+  /// the session's thread; an empty one (0 x 0) where it failed or the session ended.
   void draw_aside(SceneDescription scene, int spp, std::function<void(Image8)> done);
 
  private:

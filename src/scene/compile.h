@@ -98,7 +98,7 @@ class CompiledScene {
   std::optional<Accelerator> accelerator_;
   std::optional<Lights> lights_;
   std::filesystem::file_time_type environment_time_{};  ///< of the environment's picture, when it was read
-  std::optional<TransferFunction> ramp_;  ///< of an illustration
+  std::optional<TransferFunction> ramp_;                ///< of an illustration
   std::optional<ImportanceField> importance_;
   std::optional<PixelLists> pixel_lists_;
   std::optional<EnvironmentGuide> environment_guide_;

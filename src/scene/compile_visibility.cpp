@@ -57,8 +57,7 @@ std::vector<ImportanceRule> compiled(const std::vector<ImportanceDescription>& i
   std::vector<ImportanceRule> rules;
   std::vector<std::size_t> entry;  // of each rule
   for (std::size_t i = 0; i < important.size(); ++i) {
-    const ImportanceRule rule =
-        compiled(important[i], volumes, "/visibility/important/" + std::to_string(i));
+    const ImportanceRule rule = compiled(important[i], volumes, "/visibility/important/" + std::to_string(i));
     const auto same = std::find_if(entry.begin(), entry.end(),
                                    [&](std::size_t j) { return same_place(important[i], important[j]); });
     if (same == entry.end()) {

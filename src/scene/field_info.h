@@ -61,7 +61,7 @@ struct FieldInfo {
   bool required = false;               ///< must be in the file, and is always written
   bool is_path = false;                ///< text naming a file: relative ones belong to the scene's folder
   bool is_direction = false;           ///< a vector whose length means nothing
-  bool open_ended = false;             ///< a pair of ends: one at its bound of the range is not there, null in files
+  bool open_ended = false;  ///< a pair of ends: one at its bound of the range is not there, null in files
 };
 
 /// Names the struct whose table is meant.

@@ -109,9 +109,8 @@ void FieldReader::read(const json& value, const FieldInfo& info, const std::stri
   const json& of_field = value[1];
   const auto read_as = [&]<class T>(T shape) {
     // A null stands for the open end of a clip box; fields that have none refuse it later.
-    read(of_field,
-         FieldInfo{.key = "", .doc = "", .range = kAnyFace, .max_count = 65536, .open_ended = true}, address,
-         shape);
+    read(of_field, FieldInfo{.key = "", .doc = "", .range = kAnyFace, .max_count = 65536, .open_ended = true},
+         address, shape);
     out.value = std::move(shape);
   };
   if (of_field.is_number()) return read_as(double{});

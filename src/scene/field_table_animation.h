@@ -41,7 +41,8 @@ inline StructInfo struct_info(Struct<TurntableDescription>) {
 template <class V>
 void visit_fields(V&& visit, Struct<TurntableDescription>) {
   using T = TurntableDescription;
-  visit({.key = "seconds", .doc = "Time of all turns.", .unit = "s", .range = between(1e-3, 1e6)}, &T::seconds);
+  visit({.key = "seconds", .doc = "Time of all turns.", .unit = "s", .range = between(1e-3, 1e6)},
+        &T::seconds);
   visit({.key = "turns",
          .doc = "How often around; negative goes toward the patient's right.",
          .range = between(-50, 50)},

@@ -34,10 +34,7 @@ OrderedJson value_schema(const FieldInfo& info) {
     const std::size_t count = std::tuple_size_v<T>;
     OrderedJson items = value_schema<typename T::value_type>(info);
     if (info.open_ended) items["type"] = {"number", "null"};
-    return {{"type", "array"},
-            {"items", items},
-            {"minItems", count},
-            {"maxItems", count}};
+    return {{"type", "array"}, {"items", items}, {"minItems", count}, {"maxItems", count}};
   } else if constexpr (EnumField<T>) {
     return {{"enum", EnumWords<T>::kWords}};
   } else if constexpr (std::is_same_v<T, Color>) {

@@ -118,7 +118,8 @@ std::string write_scene(const SceneDescription& scene, bool all_fields) {
       // A struct that is not at its default, but has nothing to write, is noise.
       for (auto it = root.begin(); it != root.end();) {
         const bool optional = it.key() == "labels" || it.key() == "environment" || it.key() == "clip" ||
-                              it.key() == "illustration" || it.key() == "visibility" || it.key() == "animation";
+                              it.key() == "illustration" || it.key() == "visibility" ||
+                              it.key() == "animation";
         it = !optional && it->is_object() && it->empty() ? root.erase(it) : std::next(it);
       }
     }

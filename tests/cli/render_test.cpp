@@ -145,9 +145,9 @@ TEST_F(CliTest, StatisticsHaveTheirKeys) {
   ASSERT_EQ(render("ball.nrrd", "o.png", {"--stats", "s.json", "--threads", "2"}).code, 0);
   const json stats = json::parse(read("s.json"));
   for (const char* key :
-       {"wall_s", "load_s", "total_s", "threads", "simd", "integrator", "spp", "paths", "tracking_steps", "steps_per_s",
-        "paths_per_s", "majorant_build_ms", "importance_list_s", "importance_list_mb", "peak_rss_bytes",
-        "nonfinite_samples", "mean_luminance", "seed", "version"}) {
+       {"wall_s", "load_s", "total_s", "threads", "simd", "integrator", "spp", "paths", "tracking_steps",
+        "steps_per_s", "paths_per_s", "majorant_build_ms", "importance_list_s", "importance_list_mb",
+        "peak_rss_bytes", "nonfinite_samples", "mean_luminance", "seed", "version"}) {
     EXPECT_TRUE(stats.contains(key)) << key;
   }
   EXPECT_EQ(stats["threads"], 2);

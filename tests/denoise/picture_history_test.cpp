@@ -82,8 +82,7 @@ TEST(PictureHistory, ALightThatGrowsSteadilyIsNotShownLate) {
     const Planes3 exact = test_frame(kWidth, kHeight, lines(light)).radiance;
     mean = target = 0;
     for (int y = 0; y < kHeight; ++y) {
-      for (int x = 0; x < kWidth; ++x)
-        mean += picture.radiance[1].at(x, y), target += exact[1].at(x, y);
+      for (int x = 0; x < kWidth; ++x) mean += picture.radiance[1].at(x, y), target += exact[1].at(x, y);
     }
   }
   // A mean over as many frames as a still view gets (a gain of 0.15) would be 6 frames late: 16 %.

@@ -224,7 +224,9 @@ TEST(LiveSession, DevelopmentKeepsTheSamples) {
   const std::uint64_t revision = live.show(scene);
   const FramePtr after = heard.wait_done(revision);
   for (const FramePtr& frame : heard.frames())
-    if (frame->revision == revision) { EXPECT_EQ(frame->spp, 64); }
+    if (frame->revision == revision) {
+      EXPECT_EQ(frame->spp, 64);
+    }
   EXPECT_EQ(after->linear->rgba, before->linear->rgba);
   EXPECT_NE(after->picture.values, before->picture.values);
   // More samples of the same picture go on from those there are.
@@ -233,7 +235,9 @@ TEST(LiveSession, DevelopmentKeepsTheSamples) {
   const FramePtr longer = heard.wait_done(more);
   EXPECT_EQ(longer->spp, 96);
   for (const FramePtr& frame : heard.frames())
-    if (frame->revision == more) { EXPECT_GE(frame->spp, 64); }
+    if (frame->revision == more) {
+      EXPECT_GE(frame->spp, 64);
+    }
   EXPECT_EQ(longer->linear->rgba, rendered(live, scene).rgba);
 }
 
@@ -245,12 +249,14 @@ double error_on_screen(const LiveFrame& frame, const Image8& reference) {
       const auto at = [](int i, int count, int from) {
         return std::clamp((i + 0.5) * from / count - 0.5, 0.0, from - 1.0);
       };
-      const double u = at(x, reference.width, frame.picture.width), v = at(y, reference.height, frame.picture.height);
+      const double u = at(x, reference.width, frame.picture.width),
+                   v = at(y, reference.height, frame.picture.height);
       const int i = std::min(static_cast<int>(u), frame.picture.width - 2);
       const int j = std::min(static_cast<int>(v), frame.picture.height - 2);
       for (int c = 0; c < 3; ++c) {
         const auto value = [&](int column, int row) {
-          return 1.0 * frame.picture.values[static_cast<std::size_t>((row * frame.picture.width + column) * 3 + c)];
+          return 1.0 *
+                 frame.picture.values[static_cast<std::size_t>((row * frame.picture.width + column) * 3 + c)];
         };
         const double top = std::lerp(value(i, j), value(i + 1, j), u - i);
         const double bottom = std::lerp(value(i, j + 1), value(i + 1, j + 1), u - i);
@@ -288,7 +294,8 @@ TEST_P(ComingToRest, ThePictureGetsNoWorse) {
   other.image.spp = 256;
   const Image8 reference = tone_map(rendered(live, other), {scene.image.exposure_ev, scene.image.tone_curve});
   std::vector<FramePtr> frames = heard.frames();
-  const auto stills = std::find_if(frames.rbegin(), frames.rend(), [](const FramePtr& f) { return f->moving; });
+  const auto stills =
+      std::find_if(frames.rbegin(), frames.rend(), [](const FramePtr& f) { return f->moving; });
   ASSERT_TRUE(stills != frames.rbegin() && stills != frames.rend());
   frames.erase(frames.begin(), stills.base() - 1);  // but the last moving one
   for (std::size_t i = 1; i < frames.size(); ++i) {
@@ -365,7 +372,8 @@ TEST(LiveSession, SplitsThePictureWhereTold) {
   const auto differs_at = [&](const LiveFrame& f, int x0, int x1) {
     for (int y = 0; y < 40; ++y)
       for (int i = 3 * (48 * y + x0); i < 3 * (48 * y + x1); ++i)
-        if (f.picture.values[static_cast<std::size_t>(i)] != whole->picture.values[static_cast<std::size_t>(i)])
+        if (f.picture.values[static_cast<std::size_t>(i)] !=
+            whole->picture.values[static_cast<std::size_t>(i)])
           return true;
     return false;
   };

@@ -1,5 +1,5 @@
-#include "scene/field_info.h"
 #include "scene/scene_file.h"
+#include "scene/field_info.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -95,13 +95,17 @@ TEST(SceneFile, AnOpenFaceOfTheClipBoxIsNull) {
   EXPECT_EQ(read.clip->z_mm, s.clip->z_mm);
   // The same in keys of a track.
   s.animation.emplace();
-  s.animation->tracks = {
-      {"/clip/z_mm", Interpolation::kLinear, {{0, std::vector<double>{-kOpenFace_mm, 80}}, {1, std::vector<double>{0, 90}}}}};
+  s.animation->tracks = {{"/clip/z_mm",
+                          Interpolation::kLinear,
+                          {{0, std::vector<double>{-kOpenFace_mm, 80}}, {1, std::vector<double>{0, 90}}}}};
   EXPECT_THAT(write_scene(s), HasSubstr("[0, [null, 80]]"));
   EXPECT_EQ(parse_scene(write_scene(s), "s"), s);
-  EXPECT_THAT(error_of(scene(R"("camera": {"target_mm": [null, 0, 0]})")), HasSubstr("/camera/target_mm/0: found null"));
-  EXPECT_THAT(error_of(scene(R"("animation": {"tracks": [{"field": "/camera/target_mm", "keys": [[0, [null, 0, 0]]]}]})")),
-              HasSubstr("/animation/tracks/0/keys/0/1/0"));
+  EXPECT_THAT(error_of(scene(R"("camera": {"target_mm": [null, 0, 0]})")),
+              HasSubstr("/camera/target_mm/0: found null"));
+  EXPECT_THAT(
+      error_of(
+          scene(R"("animation": {"tracks": [{"field": "/camera/target_mm", "keys": [[0, [null, 0, 0]]]}]})")),
+      HasSubstr("/animation/tracks/0/keys/0/1/0"));
 }
 
 TEST(SceneFile, TheSchemaKeyIsAllowedAtTheRoot) {
