@@ -8,8 +8,8 @@ namespace voxlume::server {
 
 class Viewer;
 
-/// What is on screen for a while without being in the scene: the animation at a time, and fields that are other
-/// than the scene's. Either belongs to the page that asked for it last, and ends with it.
+/// What is on screen for a while without being in the scene: the animation at a time, and fields that are
+/// other than the scene's. Either belongs to the page that asked for it last, and ends with it.
 class Passing {
  public:
   /// Shows the animation at a time; absent: not any more. False where that changes nothing.

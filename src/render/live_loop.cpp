@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <utility>
 
 #include "base/parallel.h"
 #include "base/progress_parts.h"
@@ -37,8 +39,14 @@ bool same_matter(const SceneDescription& a, const SceneDescription& b) {
 }
 
 void clear(RenderState& state) {
-  for (const std::span<std::byte> sums : state.film.accumulators())
-    std::fill(sums.begin(), sums.end(), std::byte{0});  // some are empty
+  constexpr std::size_t kBlock = std::size_t{1} << 20;
+  for (const std::span<std::byte> sums : state.film.accumulators()) {  // some are empty
+    const std::size_t blocks = (sums.size() + kBlock - 1) / kBlock;
+    parallel_for(static_cast<std::int64_t>(blocks), 1, [&](std::int64_t i) {
+      const std::size_t begin = static_cast<std::size_t>(i) * kBlock;
+      std::memset(sums.data() + begin, 0, std::min(kBlock, sums.size() - begin));
+    });
+  }
   state.counters = {};
   state.elapsed_s = 0;
 }
@@ -125,7 +133,7 @@ void LiveSession::Loop::take_scene(SceneDescription scene) {
   scene_ = std::move(scene);
   failed_ = still_compiled_ = false;
   if (same_film && still_) return;
-  still_.reset();
+  if (still_) spare_ = std::exchange(still_, std::nullopt);
   on_screen_.reset();
   first_still_spp_ = 0;
 }
@@ -221,6 +229,13 @@ void LiveSession::Loop::compile(SceneDescription scene, bool gives_way) {
   });
 }
 
+/// Throws Cancelled where it gives way.
+void LiveSession::Loop::begin_still() {
+  const CancelScope scope(live_.cancel_);
+  prepare(spare_, scene_->image.width, scene_->image.height, kLayers);
+  still_ = std::exchange(spare_, std::nullopt);
+}
+
 StopRule LiveSession::Loop::still_stop() const {
   const ImageDescription& image = scene_->image;
   return {image.spp, image.seconds, image.noise};
@@ -257,10 +272,10 @@ int LiveSession::Loop::next_still_spp() const {
 void LiveSession::Loop::refine() {
   try {
     compile_still();
+    if (!still_) begin_still();
   } catch (const Cancelled&) {
     return;
   }
-  if (!still_) prepare(still_, scene_->image.width, scene_->image.height, kLayers);
   done_ = still_done();
   const bool due = shown_ == Shown::kNot || (shown_ == Shown::kQuickly && at_rest());
   if (due && still_is_best()) {  // samples that an edit has not touched

@@ -47,6 +47,7 @@ class LiveSession::Loop {
 
   void compile(SceneDescription scene, bool gives_way);
   void compile_still();
+  void begin_still();
   StopRule still_stop() const;
   bool still_done() const;
   bool still_is_best() const;
@@ -85,9 +86,10 @@ class LiveSession::Loop {
   int first_still_spp_ = 0;                ///< from which on it does
   bool still_compiled_ = false;            ///< what is compiled is scene_ at its full size
   std::shared_ptr<const Image> denoised_;  ///< of still_ as it is, or null
-  std::optional<PictureDenoiser> denoiser_;
+  std::optional<RenderState> spare_;       ///< what was still_, for its memory
+  std::optional<PictureDenoiser> moving_denoiser_, still_denoiser_;
   std::string denoiser_name_;
-  bool forgets_ = true;  ///< the denoiser's history is of other matter
+  bool forgets_ = true;  ///< the history of moving_denoiser_ is of other matter
   int history_ = 0;      ///< frames in it, of that size
   std::pair<int, int> history_size_{};
   FrameSizeChoice sizes_;

@@ -50,22 +50,28 @@ std::shared_ptr<const Image> LiveSession::Loop::picture(const RenderState& state
     describe_picture(scene, {}, *again);
     return again;
   }
-  if (method == "none") {
-    denoiser_.reset();
-  } else if (!denoiser_ || denoiser_name_ != method) {
-    denoiser_.emplace(method);
-    forgets_ = true;
+  if (denoiser_name_ != method) {
+    moving_denoiser_.reset();
+    still_denoiser_.reset();
   }
   denoiser_name_ = method;
-  // The samples of a still picture are those of its last showing and more, not another frame.
-  if (denoiser_ && (forgets_ || still)) denoiser_->forget();
-  const std::pair size{state.film.width(), state.film.height()};
-  const bool goes_on = denoiser_ && denoiser_->remembers() && !forgets_ && size == history_size_;
-  history_ = goes_on ? history_ + 1 : 1;
-  history_size_ = size;
-  forgets_ = still;
+  // Their pictures differ in size, and so do the planes that they keep.
+  std::optional<PictureDenoiser>& denoiser = still ? still_denoiser_ : moving_denoiser_;
+  if (!denoiser && method != "none") {
+    denoiser.emplace(method);
+  } else if (denoiser && (still || forgets_)) {
+    // The samples of a still picture are those of its last showing and more, not another frame.
+    denoiser->forget();
+  }
+  if (!still) {
+    const std::pair size{state.film.width(), state.film.height()};
+    const bool goes_on = denoiser && denoiser->remembers() && !forgets_ && size == history_size_;
+    history_ = goes_on ? history_ + 1 : 1;
+    history_size_ = size;
+    forgets_ = false;
+  }
   auto out =
-      std::make_shared<const Image>(finish_picture(state, scene, {}, {}, denoiser_ ? &*denoiser_ : nullptr));
+      std::make_shared<const Image>(finish_picture(state, scene, {}, {}, denoiser ? &*denoiser : nullptr));
   denoised_ = still ? out : nullptr;
   return out;
 }
@@ -90,7 +96,6 @@ void LiveSession::Loop::publish(const RenderState& state, Shown how) {
     frame->denoise_s = seconds_of([&] { frame->linear = picture(state); });
     frame->develop_s = seconds_of([&] { frame->picture = develop(state, *frame->linear); });
   } catch (const Cancelled&) {
-    forgets_ = true;
     return;
   }
   frame->moving = moving_ && &state == &*moving_;
@@ -107,7 +112,7 @@ void LiveSession::Loop::publish(const RenderState& state, Shown how) {
   const bool last = frame->done;
   hand_out(std::move(frame), how);
   show_s_ = seconds(framed_ - begin);
-  if (last) denoiser_.reset();  // its planes take more than the film, and a moving picture needs others
+  if (last) still_denoiser_.reset();  // its planes take more than the film
 }
 
 /// The moving picture on screen, developed as the scene says now.
