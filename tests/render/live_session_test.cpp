@@ -53,6 +53,7 @@ class Heard {
               changed_.notify_all();
             },
             {},
+            {},
             {}};
   }
 
@@ -305,6 +306,48 @@ TEST_P(ComingToRest, ThePictureGetsNoWorse) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Budgets, ComingToRest, testing::Values(1.0 / 30, 3e-3, 1e-6));
+
+TEST(LiveSession, AMovingPictureGoesOnAfterARestWithWhatItRemembers) {
+  SceneDescription scene;
+  scene.transfer.preset = "ct-bone";
+  scene.image.width = 192;
+  scene.image.height = 144;
+  scene.image.spp = 16;
+  scene.render.denoise = "decoupled";
+  LiveOptions options = quick();
+  options.frame_budget_s = 1e-6;  // as coarse as can be, always
+  const auto first_moving = [](Heard& heard, std::uint64_t revision) {
+    return heard.wait_for([&](const LiveFrame& f) { return f.revision == revision && f.moving; });
+  };
+  Heard heard;
+  LiveSession live(scene, make_head_phantom(), heard.listener(), options);
+  scene = live.session().description();
+  double after_rest = 0, fresh = 0;
+  for (int round = 0; round < 12; ++round) {
+    for (int i = 0; i < 6; ++i) {
+      scene.camera.azimuth_deg += 2;
+      first_moving(heard, live.show(scene));
+    }
+    heard.wait_done(live.show(scene));
+    scene.camera.azimuth_deg += 2;
+    const FramePtr remembers = first_moving(heard, live.show(scene));
+    SceneDescription other_matter = scene;
+    other_matter.transfer.density_scale *= 0.9;
+    first_moving(heard, live.show(other_matter));
+    const FramePtr forgot = first_moving(heard, live.show(scene));
+    const auto error = [&](const FramePtr& frame) {
+      SceneDescription well = scene;
+      well.image.width = frame->picture.width;
+      well.image.height = frame->picture.height;
+      well.image.spp = 256;
+      return error_on_screen(
+          *frame, tone_map(rendered(live, well), {scene.image.exposure_ev, scene.image.tone_curve}));
+    };
+    after_rest += error(remembers);
+    fresh += error(forgot);
+  }
+  EXPECT_LT(after_rest, 0.95 * fresh);
+}
 
 TEST(LiveSession, AStillPictureIsDevelopedAgainAtOnce) {
   Heard heard;
