@@ -119,6 +119,7 @@ PageMessage parse_message(std::string_view frame) {
   if (type == "redo") return RedoMessage{};
   if (type == "load") return read_load(message);
   if (type == "open") return OpenMessage{text(member(message, "path"), "/path")};
+  if (type == "cancel_open") return CancelOpenMessage{};
   if (type == "split") return SplitMessage{number_or_null(message, "at", 0, 1)};
   if (type == "seek") return SeekMessage{number_or_null(message, "time_s", 0, 1e9)};
   if (type == "probe") return read_probe(message);

@@ -31,6 +31,7 @@ struct LoadMessage {
 struct OpenMessage {
   std::string path;
 };
+struct CancelOpenMessage {};
 struct SplitMessage {
   std::optional<double> at;  ///< [0, 1]
 };
@@ -52,8 +53,8 @@ struct ShownMessage {
 };
 
 using PageMessage = std::variant<EditMessage, PassingMessage, UndoMessage, RedoMessage, LoadMessage,
-                                 OpenMessage, SplitMessage, SeekMessage, ProbeMessage, ExportMessage,
-                                 CancelExportMessage, DrawPresetsMessage, ShownMessage>;
+                                 OpenMessage, CancelOpenMessage, SplitMessage, SeekMessage, ProbeMessage,
+                                 ExportMessage, CancelExportMessage, DrawPresetsMessage, ShownMessage>;
 
 /// Reads a text frame. Throws Error: kBadFormat where it is no JSON object of bounded depth, kBadParameter
 /// where a member is missing or wrong; where() is the member ("/set/0/0"). A member that is not known is

@@ -22,8 +22,7 @@ Opening::Opening(asio::io_context& io, LiveOptions options, OpeningListener list
     : io_(io), options_(options), listener_(std::move(listener)) {}
 
 Opening::~Opening() {
-  ++newest_;
-  outdated_ = true;
+  cancel();
   thread_.join();
 }
 
@@ -32,6 +31,11 @@ void Opening::open(const SceneDescription& scene) {
   outdated_ = true;
   listener_.status({"reading", file_name(scene.volume.path), "", {}});
   asio::post(thread_, [this, scene, number] { read(scene, number); });
+}
+
+void Opening::cancel() {
+  ++newest_;
+  outdated_ = true;
 }
 
 void Opening::retire(std::shared_ptr<OpenedVolume> volume) {
@@ -105,6 +109,9 @@ LiveListener Opening::session_listener(std::uint64_t number, std::shared_ptr<Fra
   };
   out.progress = [this, to_io](const RenderProgress& progress) {
     to_io([this, progress] { listener_.progress(progress); });
+  };
+  out.warnings = [this, to_io](const std::vector<std::string>& lines) {
+    to_io([this, lines] { listener_.warnings(lines); });
   };
   out.compiling = [this, to_io](double share) { to_io([this, share] { listener_.compiling(share); }); };
   return out;

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "render/live_session.h"
 #include "server/frame_message.h"
@@ -40,6 +41,7 @@ struct OpeningListener {
   std::function<void(const FrameMessage&)> frame;
   std::function<void(const std::string& message)> trouble;
   std::function<void(const RenderProgress&)> progress;
+  std::function<void(const std::vector<std::string>&)> warnings;
   Progress compiling;  ///< as of LiveListener
 };
 
@@ -53,6 +55,8 @@ class Opening {
 
   /// `scene` names its volume by a path that may be read, and need not be resolved.
   void open(const SceneDescription& scene);
+  /// Ends what is being read or prepared, of which nothing is told any more.
+  void cancel();
   /// Ends a session on the thread that reads, since that takes a moment.
   void retire(std::shared_ptr<OpenedVolume> volume);
 

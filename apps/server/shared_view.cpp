@@ -8,6 +8,7 @@
 #include "base/file_extension.h"
 #include "scene/scene_file.h"
 #include "server/hello.h"
+#include "server/outgoing.h"
 #include "server/probe.h"
 #include "server/viewer.h"
 #include "voxlume/error.h"
@@ -27,36 +28,6 @@ std::shared_ptr<const std::string> shared_text(const json& message) {
   return std::make_shared<const std::string>(text_of(message));
 }
 
-json or_null(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
-
-json status_json(const OpeningStatus& status) {
-  json out{{"type", "status"}, {"stage", status.stage}};
-  if (!status.name.empty()) out["what"] = status.name;
-  if (!status.message.empty()) out["message"] = status.message;
-  if (status.share) out["share"] = *status.share;
-  return out;
-}
-
-json preset_drawn(const std::string& preset) { return {{"type", "preset_drawn"}, {"name", preset}}; }
-
-/// What a page is told whose message could not be followed; `message` is absent where it could not be read.
-json failure(const std::optional<PageMessage>& message, std::string_view text, const Error& error) {
-  if (message) {
-    if (const auto* open = std::get_if<OpenMessage>(&*message))
-      return status_json({"failed", file_name(open->path), error.what(), {}});
-    if (std::holds_alternative<LoadMessage>(*message))
-      return status_json({"failed", "scene", error.what(), {}});
-    if (const auto* wish = std::get_if<ExportMessage>(&*message))
-      return {{"type", "export"}, {"state", "failed"},  {"frames_done", 0},
-              {"frames", 0},      {"file", wish->file}, {"message", error.message()}};
-  }
-  const auto seq = seq_of(text);
-  return {{"type", "refused"},
-          {"seq", seq ? json(*seq) : json(nullptr)},
-          {"where", error.where()},
-          {"message", error.message()}};
-}
-
 }  // namespace
 
 SharedView::SharedView(boost::asio::io_context& io, Settings settings, Roots roots, Uploads& uploads)
@@ -64,7 +35,7 @@ SharedView::SharedView(boost::asio::io_context& io, Settings settings, Roots roo
       settings_(std::move(settings)),
       files_(std::move(roots), uploads),
       still_timer_(io),
-      thumbnails_(io, [this](const std::string& preset) { tell_all(preset_drawn(preset)); }),
+      thumbnails_(io, [this](const std::string& preset) { tell_all(preset_drawn_json(preset)); }),
       exports_(io, settings_.program, settings_.temporary / "exports",
                [this](const Json& m) { take_export_state(m); }),
       opening_(io, settings_.live,
@@ -77,6 +48,7 @@ SharedView::SharedView(boost::asio::io_context& io, Settings settings, Roots roo
                 .frame = [this](const FrameMessage& frame) { take_frame(frame); },
                 .trouble = [this](const std::string& message) { tell_trouble(message); },
                 .progress = [this](const RenderProgress& progress) { tell_progress(progress); },
+                .warnings = [this](const std::vector<std::string>& lines) { tell_warnings(lines); },
                 .compiling =
                     [this](double share) {
                       tell_all({{"type", "compiling"}, {"share", share}});
@@ -122,6 +94,7 @@ void SharedView::opened(std::shared_ptr<OpenedVolume> volume) {
   volume_->session->set_split(split_);
   volume_->session->set_yielding(exporting_);
   set_status({"ready", volume_->name, "", {}});
+  tell_warnings({});
   show();
   tell_scene();
 }
@@ -152,8 +125,9 @@ void SharedView::join(const std::shared_ptr<Viewer>& viewer) {
   viewer->send(shared_text(hello_message(settings_.samples, settings_.environments, files_.roots())));
   viewer->send(shared_text(status_));
   if (document_) viewer->send(shared_text(scene_message()));
+  if (!warnings_.is_null()) viewer->send(shared_text(warnings_));
   if (!exports_.state().is_null()) viewer->send(shared_text(exports_.state()));
-  if (split_) viewer->send(shared_text({{"type", "split"}, {"at", *split_}}));
+  if (split_) viewer->send(shared_text(split_json(split_)));
   if (frame_) viewer->offer(*frame_);
   tell_all({{"type", "viewers"}, {"count", viewers_.size()}});
 }
@@ -184,9 +158,10 @@ void SharedView::receive(Viewer& viewer, std::string_view text) {
     message = parse_message(text);
     std::visit([&](const auto& m) { take(viewer, m); }, *message);
   } catch (const Error& error) {
-    viewer.send(shared_text(in_words(failure(message, text, error))));
+    viewer.send(shared_text(in_words(failure_json(message, text, error))));
   } catch (const std::exception& error) {
-    viewer.send(shared_text(in_words(failure(message, text, Error(ErrorCode::kInternal, "", error.what())))));
+    viewer.send(
+        shared_text(in_words(failure_json(message, text, Error(ErrorCode::kInternal, "", error.what())))));
   }
 }
 
@@ -247,6 +222,13 @@ void SharedView::take(Viewer&, const OpenMessage& message) {
   open(scene, path);
 }
 
+void SharedView::take(Viewer&, const CancelOpenMessage&) {
+  if (status_["stage"] != "reading" && status_["stage"] != "preparing") return;
+  opening_.cancel();
+  files_.failed();
+  set_status({volume_ ? "ready" : "empty", volume_ ? volume_->name : "", "", {}});
+}
+
 bool SharedView::is_sample(const fs::path& path) const {
   return std::any_of(settings_.samples.begin(), settings_.samples.end(),
                      [&](const Sample& sample) { return sample.path == path; });
@@ -255,7 +237,7 @@ bool SharedView::is_sample(const fs::path& path) const {
 void SharedView::take(Viewer&, const SplitMessage& message) {
   split_ = message.at;
   if (volume_) volume_->session->set_split(split_);
-  tell_all({{"type", "split"}, {"at", or_null(split_)}});
+  tell_all(split_json(split_));
 }
 
 void SharedView::take(Viewer& from, const SeekMessage& message) {
@@ -293,7 +275,7 @@ void SharedView::take(Viewer&, const CancelExportMessage&) { exports_.cancel(); 
 void SharedView::take(Viewer& from, const DrawPresetsMessage&) {
   const SceneDescription& scene = open_document().scene();
   for (const std::string& preset : thumbnails_.draw_all(*volume_, scene))
-    from.send(shared_text(preset_drawn(preset)));
+    from.send(shared_text(preset_drawn_json(preset)));
 }
 
 void SharedView::take(Viewer& from, const ShownMessage& message) { from.shown(message.frame); }
@@ -388,12 +370,15 @@ SharedView::Json SharedView::in_words(Json message) const {
   return message;
 }
 
+void SharedView::tell_warnings(const std::vector<std::string>& lines) {
+  Json named = Json::array();
+  for (const std::string& line : lines) named.push_back(files_.uploads().with_names_alone(line));
+  warnings_ = {{"type", "warnings"}, {"lines", named}};
+  tell_all(warnings_);
+}
+
 void SharedView::tell_progress(const RenderProgress& progress) {
-  const auto text = shared_text({{"type", "progress"},
-                                 {"spp", progress.spp},
-                                 {"noise", or_null(progress.noise)},
-                                 {"remaining_s", or_null(progress.remaining_s)},
-                                 {"samples_per_s", progress.samples_per_s}});
+  const auto text = shared_text(progress_json(progress));
   const auto viewers = viewers_;
   for (const auto& [key, viewer] : viewers) viewer->send_if_idle(text);
 }

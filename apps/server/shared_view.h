@@ -83,6 +83,7 @@ class SharedView {
   void take(Viewer& from, const RedoMessage&);
   void take(Viewer& from, const LoadMessage& message);
   void take(Viewer& from, const OpenMessage& message);
+  void take(Viewer& from, const CancelOpenMessage&);
   void take(Viewer& from, const SplitMessage& message);
   void take(Viewer& from, const SeekMessage& message);
   void take(Viewer& from, const ProbeMessage& message);
@@ -106,6 +107,7 @@ class SharedView {
   void show();
   void tell_all(const Json& message, const Viewer* but = nullptr);
   void tell_trouble(const std::string& message);
+  void tell_warnings(const std::vector<std::string>& lines);
   /// What a message says went wrong, in words for the page.
   Json in_words(Json message) const;
   void tell_progress(const RenderProgress& progress);
@@ -127,6 +129,7 @@ class SharedView {
   std::optional<FrameMessage> frame_;
   std::uint64_t last_frame_ = 0;  ///< number of the newest frame, as viewers know it
   Json status_;
+  Json warnings_;                                   ///< the message that tells of them; null: not known yet
   std::optional<std::pair<int, int>> screen_size_;  ///< what a page asked for last
   std::optional<double> split_;
   Passing passing_;

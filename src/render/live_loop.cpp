@@ -227,6 +227,10 @@ void LiveSession::Loop::compile(SceneDescription scene, bool gives_way) {
     if (gives_way && live_.cancel_) throw Cancelled();
     work.is_done(share);
   });
+  std::vector<std::string> warnings = live_.session_.compiled().warnings();
+  if (warnings == warnings_) return;
+  warnings_ = std::move(warnings);
+  if (live_.listener_.warnings) live_.listener_.warnings(warnings_);
 }
 
 /// Throws Cancelled where it gives way.

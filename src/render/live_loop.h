@@ -83,6 +83,7 @@ class LiveSession::Loop {
   std::optional<RenderState> moving_, still_;
   std::shared_ptr<const LiveFrame>
       on_screen_;                          ///< the picture of moving_, until one of still_ takes its place
+  std::vector<std::string> warnings_;      ///< told last
   int first_still_spp_ = 0;                ///< from which on it does
   bool still_compiled_ = false;            ///< what is compiled is scene_ at its full size
   std::shared_ptr<const Image> denoised_;  ///< of still_ as it is, or null

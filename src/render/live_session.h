@@ -51,6 +51,8 @@ struct LiveListener {
   std::function<void(std::uint64_t revision, const std::string& message)> trouble;
   /// A still picture gets better; a few times a second.
   std::function<void(const RenderProgress&)> progress;
+  /// What CompiledScene::warnings() says of the scene on screen, each time that it says something else.
+  std::function<void(const std::vector<std::string>&)> warnings;
   /// How much of the volume the session has looked over, while it is made; by several threads in turn.
   Progress preparing;
   /// How much of compiling a scene is done, where it takes longer than LiveOptions::patience_s: what is

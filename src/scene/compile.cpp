@@ -116,7 +116,6 @@ CompiledScene::CompiledScene(SceneDescription description, Volume volume, const 
     throw Error(ErrorCode::kUnsupported, description.volume.path,
                 "its values exceed what a 32-bit float holds, in which voxlume computes; rescale them");
   compile(std::move(description), true, progress);
-  warn_of_values(statistics);
 }
 
 void CompiledScene::update(SceneDescription description, const ListProgress& progress) {
@@ -234,7 +233,6 @@ void CompiledScene::put_medium(Parts& parts, const SceneDescription& local) {
   if (parts.rule_volumes) {
     rule_volumes_ = std::move(parts.rule_volumes);
     accelerator_->forget_volumes();
-    warnings_.insert(warnings_.end(), rule_volumes_->warnings().begin(), rule_volumes_->warnings().end());
   }
   if (parts.classifier) classifier_ = std::move(parts.classifier);
   if (new_majorants) {
@@ -268,8 +266,6 @@ void CompiledScene::put_medium(Parts& parts, const SceneDescription& local) {
                         Vec3f(Vec3d(clip->x_mm[1], clip->y_mm[1], clip->z_mm[1]))};
   }
   if (parts.labels) {
-    warnings_.insert(warnings_.end(), parts.labels->volume.warnings.begin(),
-                     parts.labels->volume.warnings.end());
     label_volume_ = std::move(parts.labels->volume);
     label_table_ = std::move(parts.labels->table);
     view_.labels = {make_grid_view(moved_to_origin(*label_volume_, origin_mm_)), label_table_->colors.data(),
@@ -367,17 +363,24 @@ void CompiledScene::put_image(const SceneDescription& description) {
                              (view_.lights.has_environment || view_.lights.rect_count > 0));
 }
 
-void CompiledScene::warn_of_values(const VolumeStatistics& statistics) {
-  const float magnitude = std::max(std::abs(statistics.lower), std::abs(statistics.upper));
-  if (voxel_bytes(volume_.type) > 2 && statistics.upper > statistics.lower &&
-      statistics.upper - statistics.lower < 1e-5f * magnitude)
-    warnings_.push_back(
+std::vector<std::string> CompiledScene::warnings() const {
+  std::vector<std::string> out = rule_volumes_->warnings();
+  if (description_.labels) {
+    out.insert(out.end(), label_volume_->warnings.begin(), label_volume_->warnings.end());
+    if (intersect(world_bounds(*label_volume_), world_bounds(volume_)).empty())
+      out.push_back("/labels: they lie nowhere in the volume, and so colour nothing");
+  }
+  const float magnitude = std::max(std::abs(statistics_.lower), std::abs(statistics_.upper));
+  if (voxel_bytes(volume_.type) > 2 && statistics_.upper > statistics_.lower &&
+      statistics_.upper - statistics_.lower < 1e-5f * magnitude)
+    out.push_back(
         "the values differ by little more than the precision of a 32-bit float; subtract their mean");
-  if (statistics.nonfinite_voxels > 0)
-    warnings_.push_back(std::to_string(statistics.nonfinite_voxels) +
-                        " voxels are not finite and stay transparent");
+  if (statistics_.nonfinite_voxels > 0)
+    out.push_back(std::to_string(statistics_.nonfinite_voxels) +
+                  " voxels are not finite and stay transparent");
   if (!(max_mu_t() > 0))
-    warnings_.push_back("nothing is visible: the transfer function is 0 for every value of the volume");
+    out.push_back("nothing is visible: the transfer function is 0 for every value of the volume");
+  return out;
 }
 
 }  // namespace voxlume

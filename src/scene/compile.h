@@ -43,7 +43,7 @@ class CompiledScene {
   /// for another accelerator only, and the environment's picture is read again where the environment changes
   /// and its path or file time does. `description` is resolved; its volume counts as the one at hand. Nothing
   /// may be tracing, and copies of view() are out of date afterwards. Throws as the constructor does; the
-  /// scene is then what it was, but for warnings(). Where `progress` has thrown, the scene may be the new one
+  /// scene is then what it was. Where `progress` has thrown, the scene may be the new one
   /// without its lists: it must not be traced before it is updated again, to any scene.
   void update(SceneDescription description, const ListProgress& progress = {});
 
@@ -53,8 +53,9 @@ class CompiledScene {
   /// The place of view()'s origin [LPS mm].
   const Double3& origin_mm() const { return origin_mm_; }
   const std::optional<LabelTable>& label_table() const { return label_table_; }
-  /// What reading the scene's other files had to say.
-  const std::vector<std::string>& warnings() const { return warnings_; }
+  /// What of it may not be as whoever wrote it expects, a line each: what reading its other files had to say,
+  /// values that cannot be shown, and when nothing is visible.
+  std::vector<std::string> warnings() const;
 
   /// Of the last compilation that changed the transfer function or the accelerator.
   double majorant_build_ms() const { return majorant_build_ms_; }
@@ -81,7 +82,6 @@ class CompiledScene {
   void put_visibility(std::optional<ImportanceField> importance, const SceneDescription& local,
                       bool same_lists, const ListProgress& progress);
   void put_integrator(const SceneDescription& local, const SceneSphere& sphere, bool same_light);
-  void warn_of_values(const VolumeStatistics& statistics);
 
   SceneDescription description_;
   Volume volume_;
@@ -89,7 +89,6 @@ class CompiledScene {
   VolumeStatistics statistics_;  ///< without the histogram
   std::optional<Volume> label_volume_;
   std::optional<LabelTable> label_table_;
-  std::vector<std::string> warnings_;
   std::optional<TransferFunction> transfer_;
   std::optional<ExtinctionColorCurve> extinction_color_;
   std::optional<RuleVolumes> rule_volumes_;

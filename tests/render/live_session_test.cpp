@@ -41,20 +41,19 @@ SceneDescription small_scene() {
 class Heard {
  public:
   LiveListener listener() {
-    return {[this](FramePtr frame) {
-              std::unique_lock lock(mutex_);
-              frames_.push_back(std::move(frame));
-              changed_.notify_all();
-              changed_.wait(lock, [this] { return !held_; });
-            },
-            [this](std::uint64_t revision, const std::string& message) {
-              const std::lock_guard lock(mutex_);
-              troubles_.emplace_back(revision, message);
-              changed_.notify_all();
-            },
-            {},
-            {},
-            {}};
+    LiveListener out;
+    out.frame = [this](FramePtr frame) {
+      std::unique_lock lock(mutex_);
+      frames_.push_back(std::move(frame));
+      changed_.notify_all();
+      changed_.wait(lock, [this] { return !held_; });
+    };
+    out.trouble = [this](std::uint64_t revision, const std::string& message) {
+      const std::lock_guard lock(mutex_);
+      troubles_.emplace_back(revision, message);
+      changed_.notify_all();
+    };
+    return out;
   }
 
   /// The first frame, of those to come and those that came, for which `pred` holds.

@@ -39,6 +39,7 @@ TEST(Messages, AreRead) {
   EXPECT_NO_THROW(read<UndoMessage>(R"({"type":"undo"})"));
   EXPECT_NO_THROW(read<RedoMessage>(R"({"type":"redo"})"));
   EXPECT_NO_THROW(read<DrawPresetsMessage>(R"({"type":"draw_presets"})"));
+  EXPECT_NO_THROW(read<CancelOpenMessage>(R"({"type":"cancel_open"})"));
   EXPECT_NO_THROW(read<CancelExportMessage>(R"({"type":"cancel_export"})"));
 }
 

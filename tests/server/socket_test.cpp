@@ -506,6 +506,60 @@ TEST_F(Socket, TheNewestOpenWins) {
   EXPECT_EQ(json::parse(get(*address_, "/api/volume").body)["name"], "ramp.nrrd");
 }
 
+/// A volume that takes a while to be prepared, and no room on the disk.
+void write_large(const std::filesystem::path& folder) {
+  write_bytes(folder / "large.nhdr",
+              "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 4096 4096 1024\nencoding: raw\n"
+              "spacings: 1 1 1\ndata file: large.raw\n");
+  write_bytes(folder / "large.raw", "");
+  std::filesystem::resize_file(folder / "large.raw", std::uintmax_t{1} << 34);
+}
+
+TEST_F(Socket, OpeningIsGivenUp) {
+  write_large(files_);
+  Page page(start());
+  const auto begun = [](const json& m) { return m["stage"] == "preparing"; };
+  page.send({{"type", "open"}, {"path", "large.nhdr"}});
+  page.next("status", begun);
+  page.send({{"type", "cancel_open"}});
+  EXPECT_EQ(page.next("status", [](const json& m) { return !m.contains("share"); })["stage"], "empty");
+  page.send({{"type", "open"}, {"path", "ramp.nrrd"}});
+  const json scene = page.next("scene");
+  EXPECT_THAT(scene["scene"]["volume"]["path"].get<std::string>(), HasSubstr("ramp.nrrd"));
+  // Over an open volume, which stays and whose pictures go on.
+  page.send({{"type", "open"}, {"path", "large.nhdr"}});
+  page.next("status", begun);
+  page.send({{"type", "cancel_open"}});
+  const json status = page.next("status", [](const json& m) { return m["stage"] == "ready"; });
+  EXPECT_EQ(status["what"], "ramp.nrrd");
+  page.send(edit(1, "/camera/zoom", 2));
+  const json edited = page.next("edited");
+  page.next("frame", [&](const json& m) { return m["revision"] == edited["revision"]; });
+  // Where nothing is being opened there is nothing to give up.
+  page.send({{"type", "cancel_open"}});
+  page.send({{"type", "split"}, {"at", 0.5}});
+  EXPECT_EQ(page.next()["type"], "split");
+}
+
+TEST_F(Socket, WhatNobodyMayExpectOfASceneIsTold) {
+  write_volume(
+      make_volume<std::uint8_t>({4, 4, 4}, [](auto, auto, auto) { return 1; }, {.origin_mm = {500, 0, 0}}),
+      files_ / "far.nrrd");
+  Page page(start_with_ramp());
+  EXPECT_EQ(page.next("warnings")["lines"], json::array());
+  const json far{{"name", "far"}, {"kind", "file"}, {"path", "far.nrrd"}, {"lookup", "nearest"}};
+  page.send(edit(1, "/proxies", json::array({far})));
+  const auto lines = [&] { return page.next("warnings")["lines"].dump(); };
+  EXPECT_THAT(lines(), HasSubstr("lies nowhere in the volume"));
+  EXPECT_THAT(Page(*address_).next("warnings")["lines"].dump(), HasSubstr("lies nowhere"));
+  page.send(edit(2, "/transfer/density_scale", 0));
+  EXPECT_THAT(lines(), testing::AllOf(HasSubstr("lies nowhere"), HasSubstr("nothing is visible")));
+  page.send({{"type", "undo"}});
+  EXPECT_THAT(lines(), testing::Not(HasSubstr("nothing is visible")));
+  page.send({{"type", "undo"}});
+  EXPECT_EQ(lines(), "[]");
+}
+
 TEST_F(Socket, SeekingShowsATimeAndChangesNothing) {
   Page page(start_with_ramp());
   const json before = page.next("scene");

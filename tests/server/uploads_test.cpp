@@ -138,7 +138,7 @@ TEST_F(UploadsOfPages, TextsCallThemByTheirNamesAlone) {
   const fs::path one = send(uploads, "a b.nrrd", "x");
   EXPECT_EQ(uploads.with_names_alone(one.string() + ": is damaged, as " + one.string()),
             "a b.nrrd: is damaged, as a b.nrrd");
-  for (const std::string other :
+  for (const std::string& other :
        {std::string("/data/7/a.nrrd is odd"), (folder_ / "u").string() + "/x/a.nrrd"})
     EXPECT_EQ(uploads.with_names_alone(other), other);
 }

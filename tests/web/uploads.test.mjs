@@ -1,10 +1,10 @@
 // What the user brings: several files that are one volume, folders, and scenes of them.
 import assert from "node:assert/strict";
-import { mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
+import { mkdirSync, readFileSync, readdirSync, truncateSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { execFileSync } from "node:child_process";
 import { after, test } from "node:test";
-import { closeBrowser, open, program, psnr, quick, writeBall } from "./page.mjs";
+import { closeBrowser, open, program, psnr, quick, writeBall, writeQuarters } from "./page.mjs";
 
 after(closeBrowser);
 
@@ -97,6 +97,31 @@ test("uploads of many files show how far they are, and can be given up", async (
   await viewer.page.getByText("Open a volume").waitFor();
   for (const answer of answers) answer();
   assert.equal(sent, 11, "files are sent after it was given up");
+});
+
+test("what takes long to open is given up, and what nobody sees is told", async (t) => {
+  const viewer = await open(t, [...quick]);
+  const { page, scratch } = viewer;
+  writeFileSync(join(scratch, "large.nhdr"), "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 4096 4096 1024\nencoding: raw\nspacings: 1 1 1\ndata file: large.raw\n\n");
+  writeFileSync(join(scratch, "large.raw"), "");
+  truncateSync(join(scratch, "large.raw"), 2 ** 34);
+  writeBall(join(scratch, "ball.nrrd"));
+  const far = readFileSync(writeQuarters(join(scratch, "far.nrrd"))).toString("latin1");
+  writeFileSync(join(scratch, "far.nrrd"), far.replace("space origin: (0,0,0)", "space origin: (900,0,0)"), "latin1");
+  const choose = async (name) => page.getByRole("button", { name: new RegExp(`^${name.replace(".", "\\.")}`) }).first().click();
+  await page.reload();
+  await choose("large.nhdr");
+  await page.getByRole("progressbar", { name: "Opening" }).waitFor();
+  await viewer.button("Cancel opening").click();
+  await page.getByText("Open a volume").waitFor();
+  await choose("ball.nrrd");
+  await opened(viewer, "ball.nrrd");
+  await viewer.done();
+  await viewer.panel("Labels");
+  await viewer.button("Label volume from a file").click();
+  await page.getByRole("dialog", { name: "Add a label volume" }).getByRole("button", { name: /far\.nrrd/ }).click();
+  await page.getByText(/"far" lies nowhere in the volume/).first().waitFor();
+  await page.locator(".open-warning").getByLabel(/lies nowhere/).or(page.getByLabel(/lies nowhere/)).first().waitFor();
 });
 
 test("a scene of a dropped file names it by its name, finds it again, and is rendered beside it", async (t) => {

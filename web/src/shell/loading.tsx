@@ -2,7 +2,7 @@ import { useEffect, useState } from "preact/hooks";
 import { connect, link, type LinkState } from "../state/connection";
 import { compiling, frame } from "../state/frame";
 import { scene } from "../state/scene";
-import { status } from "../state/session";
+import { cancelOpening, status } from "../state/session";
 import { Button, IconButton } from "../ui/controls";
 import { Icon } from "../ui/icons";
 import { signal } from "@preact/signals";
@@ -64,6 +64,7 @@ export function Loading() {
           {stage === "reading" ? "Reading" : "Preparing"} {what}
         </strong>
         {share !== undefined && <span>{Math.round(share * 100)} %</span>}
+        <IconButton icon="close" label="Cancel opening" onClick={cancelOpening} />
       </div>
       <Bar share={share} label="Opening" />
       {message && <p>{message}</p>}

@@ -1,6 +1,7 @@
 import { lengthScale } from "../state/lengths";
 import { layout, resolution, theme, type Theme } from "../state/preferences";
 import { canRedo, canUndo, redo, scene, undo } from "../state/scene";
+import { warnings } from "../state/session";
 import { volume, type VolumeFacts } from "../state/volume";
 import { Button, IconButton } from "../ui/controls";
 import { Icon } from "../ui/icons";
@@ -22,6 +23,7 @@ function facts({ size, spacing_mm, type, modality, range }: VolumeFacts): string
 function OpenVolume() {
   const open = volume.value;
   if (!open) return null;
+  const warned = [...new Set([...open.warnings, ...warnings.value])];
   return (
     <span class="open-volume" title={facts(open)}>
       <span class="open-name">{open.name}</span>
@@ -29,8 +31,8 @@ function OpenVolume() {
         {open.size.join(" x ")}
         {open.modality && ` ${open.modality}`}
       </span>
-      {open.warnings.length > 0 && (
-        <span class="open-warning" title={open.warnings.join("\n")} role="img" aria-label={open.warnings.join("; ")}>
+      {warned.length > 0 && (
+        <span class="open-warning" title={warned.join("\n")} role="img" aria-label={warned.join("; ")}>
           <Icon name="warning" />
         </span>
       )}

@@ -12,6 +12,7 @@ export type PageMessage =
   | { type: "redo" }
   | { type: "load"; scene: unknown }
   | { type: "open"; path: string }
+  | { type: "cancel_open" }
   | { type: "split"; at: number | null }
   | { type: "seek"; time_s: number | null }
   | ({ type: "probe"; id: number } & ProbedPlace)
@@ -79,6 +80,12 @@ export interface Trouble {
   message: string;
 }
 
+/** What of the scene may not be as its user expects. */
+export interface Warnings {
+  type: "warnings";
+  lines: string[];
+}
+
 export interface Progress {
   type: "progress";
   spp: number;
@@ -137,6 +144,7 @@ export type ServerMessage =
   | Refused
   | Status
   | Trouble
+  | Warnings
   | Progress
   | Compiling
   | Probe

@@ -19,8 +19,17 @@ const splitSignal = signal<number | null>(null);
 /** Left of this share of the width the picture is without denoiser; null: no split. */
 export const split: ReadonlySignal<number | null> = splitSignal;
 
+const warningsSignal = signal<readonly string[]>([]);
+/** What of the scene may not be as its user expects: labels that lie nowhere in the volume, nothing to be seen. */
+export const warnings: ReadonlySignal<readonly string[]> = warningsSignal;
+
 const viewersSignal = signal(1);
 export const viewers: ReadonlySignal<number> = viewersSignal;
+
+/** Ends the opening of what is being read or prepared; what was open before stays. */
+export function cancelOpening(): void {
+  send({ type: "cancel_open" });
+}
 
 let splitQueued = false;
 
@@ -56,6 +65,7 @@ on("probe", (answer) => {
 });
 on("hello", (message) => (helloSignal.value = message));
 on("status", (message) => (statusSignal.value = message));
+on("warnings", (message) => (warningsSignal.value = message.lines));
 on("export", (message) => (exportSignal.value = message));
 on("split", (message) => (splitSignal.value = message.at));
 on("viewers", (message) => (viewersSignal.value = message.count));
