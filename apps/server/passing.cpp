@@ -13,6 +13,7 @@ bool Passing::seek(const Viewer& page, std::optional<double> time_s) {
 }
 
 bool Passing::set(const Viewer& page, std::vector<FieldEdit> fields) {
+  if (fields.empty() && setting_ != &page) return false;
   setting_ = fields.empty() ? nullptr : &page;
   if (fields == fields_) return false;
   fields_ = std::move(fields);

@@ -14,7 +14,8 @@ class Passing {
  public:
   /// Shows the animation at a time; absent: not any more. False where that changes nothing.
   bool seek(const Viewer& page, std::optional<double> time_s);
-  /// Shows the scene with these fields; none: as it is. False where that changes nothing.
+  /// Shows the scene with these fields; none: as it is, if they were this page's. False where that changes
+  /// nothing.
   bool set(const Viewer& page, std::vector<FieldEdit> fields);
   /// The page goes. False where nothing was its own.
   bool leave(const Viewer& page);

@@ -41,17 +41,20 @@ Sight look_at(const std::string& folder) {
   return out;
 }
 
-/// Blocked for good, as far as two sights tell.
+/// Neither read nor wrote nor touched new memory.
+bool is_idle(const Sight& before, const Sight& now) {
+  return now.io == before.io && now.faults == before.faults;
+}
+
+/// Blocked in one wait for a lock.
 bool is_same_wait(const Sight& before, const Sight& now) {
   return !now.lock_wait.empty() && now.lock_wait == before.lock_wait && now.user_ticks == before.user_ticks &&
          now.system_ticks == before.system_ticks;
 }
 
-/// Asks the system again and again for nothing.
+/// Asks the system again and again for nothing, or rests.
 bool only_yields(const Sight& before, const Sight& now) {
-  const std::uint64_t user = now.user_ticks - before.user_ticks;
-  const std::uint64_t system = now.system_ticks - before.system_ticks;
-  return system > user && !now.io.empty() && now.io == before.io && now.faults == before.faults;
+  return !now.io.empty() && now.system_ticks - before.system_ticks >= now.user_ticks - before.user_ticks;
 }
 
 }  // namespace
@@ -59,10 +62,18 @@ bool only_yields(const Sight& before, const Sight& now) {
 DeadlockWatch::DeadlockWatch(pid_t child) : folder_(fmt::format("/proc/{}", child)) {}
 
 bool DeadlockWatch::is_deadlocked() {
-  constexpr int kEnoughRepeats = 4;
-  const Sight before = std::exchange(last_, look_at(folder_));
-  repeats_ = is_same_wait(before, last_) || only_yields(before, last_) ? repeats_ + 1 : 0;
-  return repeats_ >= kEnoughRepeats;
+  constexpr int kEnoughCalls = 4;
+  constexpr std::uint64_t kEnoughTicks = 10;  // of 10 ms; on a busy machine yielding takes little time
+  Sight now = look_at(folder_);
+  const bool waits = is_idle(since_, now) && is_same_wait(since_, now);
+  const bool yields = is_idle(since_, now) && only_yields(since_, now);
+  if (!waits && !yields) {
+    since_ = std::move(now);
+    calls_ = 0;
+    return false;
+  }
+  ++calls_;
+  return calls_ >= kEnoughCalls && (waits || now.system_ticks - since_.system_ticks >= kEnoughTicks);
 }
 
 }  // namespace voxlume

@@ -27,8 +27,8 @@ class DeadlockWatch {
 
  private:
   std::string folder_;
-  Sight last_;
-  int repeats_ = 0;
+  Sight since_;    ///< nothing but waiting was seen from then on
+  int calls_ = 0;  ///< from then on
 };
 
 }  // namespace voxlume

@@ -632,7 +632,9 @@ TEST_F(Socket, APageThatGoesTakesAlongWhatItSetInPassing) {
   {
     Page other(*address_);
     other.send(passing(1, {{"/camera/azimuth_deg", 90}}));
-    page.next("frame", [&](const json& m) { return m["camera"] != still["camera"]; });
+    const json turned = page.next("frame", [&](const json& m) { return m["camera"] != still["camera"]; });
+    page.send(passing(1, {}));  // what is another's is not ended
+    EXPECT_EQ(page.next("edited")["revision"], turned["revision"]);
     other.cut();
   }
   page.next("frame", [&](const json& m) { return m["camera"] == still["camera"]; });
