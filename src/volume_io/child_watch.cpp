@@ -32,8 +32,10 @@ Sight look_at(const std::string& folder) {
   const std::size_t name_end = stat.rfind(')');
   if (name_end == std::string::npos) return {};
   std::istringstream fields(stat.substr(name_end + 1));
-  std::string skipped;
-  constexpr int kFieldsBefore = 7;  // state to flags; minflt, cminflt, majflt, cmajflt, utime, stime follow
+  std::string state, skipped;
+  fields >> state;
+  out.runs = state == "R";
+  constexpr int kFieldsBefore = 6;  // ppid to flags; minflt, cminflt, majflt, cmajflt, utime, stime follow
   for (int i = 0; i < kFieldsBefore; ++i) fields >> skipped;
   std::uint64_t minor = 0, major = 0;
   fields >> minor >> skipped >> major >> skipped >> out.user_ticks >> out.system_ticks;
@@ -52,9 +54,10 @@ bool is_same_wait(const Sight& before, const Sight& now) {
          now.system_ticks == before.system_ticks;
 }
 
-/// Asks the system again and again for nothing, or rests.
+/// Asks the system again and again for nothing. On a busy machine that takes next to no time.
 bool only_yields(const Sight& before, const Sight& now) {
-  return !now.io.empty() && now.system_ticks - before.system_ticks >= now.user_ticks - before.user_ticks;
+  return now.runs && !now.io.empty() &&
+         now.system_ticks - before.system_ticks >= now.user_ticks - before.user_ticks;
 }
 
 }  // namespace
@@ -63,17 +66,11 @@ DeadlockWatch::DeadlockWatch(pid_t child) : folder_(fmt::format("/proc/{}", chil
 
 bool DeadlockWatch::is_deadlocked() {
   constexpr int kEnoughCalls = 4;
-  constexpr std::uint64_t kEnoughTicks = 10;  // of 10 ms; on a busy machine yielding takes little time
   Sight now = look_at(folder_);
-  const bool waits = is_idle(since_, now) && is_same_wait(since_, now);
-  const bool yields = is_idle(since_, now) && only_yields(since_, now);
-  if (!waits && !yields) {
-    since_ = std::move(now);
-    calls_ = 0;
-    return false;
-  }
-  ++calls_;
-  return calls_ >= kEnoughCalls && (waits || now.system_ticks - since_.system_ticks >= kEnoughTicks);
+  const bool waits = is_idle(since_, now) && (is_same_wait(since_, now) || only_yields(since_, now));
+  calls_ = waits ? calls_ + 1 : 0;
+  if (!waits) since_ = std::move(now);
+  return calls_ >= kEnoughCalls;
 }
 
 }  // namespace voxlume

@@ -20,6 +20,7 @@ class DeadlockWatch {
 
   /// What of a process tells a wait for ever from work.
   struct Sight {
+    bool runs = false;      ///< or would, if it had a processor
     std::string lock_wait;  ///< the system call it is in with its arguments, where that waits for a lock
     std::string io;         ///< what it has read and written
     std::uint64_t faults = 0, user_ticks = 0, system_ticks = 0;

@@ -50,7 +50,7 @@ TEST(ChildWatch, TellsALockHeldForEverFromWorkAndFromWaiting) {
   mutex.lock();
   EXPECT_TRUE(is_found_deadlocked([] { mutex.lock(); }, 20));
   mutex.unlock();
-  EXPECT_TRUE(is_found_deadlocked([] { sched_yield(); }, 300));
+  EXPECT_TRUE(is_found_deadlocked([] { sched_yield(); }, 100));
   EXPECT_FALSE(is_found_deadlocked([] {}, 8));
   EXPECT_FALSE(is_found_deadlocked(read_nothing, 8));
   EXPECT_FALSE(is_found_deadlocked(touch_memory, 8));
