@@ -129,7 +129,8 @@ class ExportOfAMovie : public Export {
     ::setenv("PATH", path_.c_str(), 1);
   }
   static bool comes_true(const std::function<bool()>& what) {
-    for (int i = 0; i < 1000 && !what(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    // What exports has the least priority: on a busy machine it takes a while.
+    for (int i = 0; i < 3000 && !what(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
     return what();
   }
   /// Begins to encode.

@@ -15,7 +15,7 @@ namespace voxlume::test {
 using nlohmann::json;
 
 /// After so long whatever is waited for has failed.
-constexpr double kPatience_s = 20;
+constexpr double kPatience_s = 60;
 
 /// Where a server listens, and what lets one in.
 struct Address {
