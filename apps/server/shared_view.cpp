@@ -182,7 +182,8 @@ void SharedView::take(Viewer& from, const EditMessage& message) {
 }
 
 void SharedView::take(Viewer& from, const PassingMessage& message) {
-  open_document().with(message.set);  // throws what is wrong with it
+  const Document& document = open_document();
+  if (!message.set.empty()) document.with(message.set);  // throws what is wrong with it
   if (passing_.set(from, message.set)) show();
   Json edited = edited_message(Json::object());
   edited["seq"] = message.seq;
@@ -226,7 +227,10 @@ void SharedView::take(Viewer&, const CancelOpenMessage&) {
   if (status_["stage"] != "reading" && status_["stage"] != "preparing") return;
   opening_.cancel();
   files_.failed();
-  set_status({volume_ ? "ready" : "empty", volume_ ? volume_->name : "", "", {}});
+  status_ = status_json({volume_ ? "ready" : "empty", volume_ ? volume_->name : "", "", {}});
+  Json status = status_;
+  status["given_up"] = true;
+  tell_all(status);
 }
 
 bool SharedView::is_sample(const fs::path& path) const {

@@ -54,10 +54,12 @@ void clear(RenderState& state) {
 /// An empty state, `old` if it is of that kind.
 void prepare(std::optional<RenderState>& state, int width, int height, FilmLayers layers) {
   if (state && state->film.width() == width && state->film.height() == height &&
-      state->film.layers() == layers)
+      state->film.layers() == layers) {
     clear(*state);
-  else
+  } else {
+    state.reset();  // before the next takes as much
     state.emplace(RenderState{Film(width, height, layers), {}, 0});
+  }
 }
 
 }  // namespace
@@ -153,6 +155,7 @@ void LiveSession::Loop::attempt(Work&& work) {
   } catch (const std::exception& error) {
     failed_ = true;
     still_.reset();
+    spare_.reset();
     if (live_.listener_.trouble) live_.listener_.trouble(revision_, error.what());
   }
 }

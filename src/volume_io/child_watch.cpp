@@ -40,6 +40,8 @@ Sight look_at(const std::string& folder) {
   std::uint64_t minor = 0, major = 0;
   fields >> minor >> skipped >> major >> skipped >> out.user_ticks >> out.system_ticks;
   out.faults = minor + major;
+  std::istringstream times(whole_file(folder + "/schedstat"));  // not on every system
+  times >> skipped >> skipped >> out.turns;
   return out;
 }
 
@@ -54,10 +56,16 @@ bool is_same_wait(const Sight& before, const Sight& now) {
          now.system_ticks == before.system_ticks;
 }
 
-/// Asks the system again and again for nothing. On a busy machine that takes next to no time.
+/// Asks the system again and again for nothing, or gets no processor.
 bool only_yields(const Sight& before, const Sight& now) {
   return now.runs && !now.io.empty() &&
          now.system_ticks - before.system_ticks >= now.user_ticks - before.user_ticks;
+}
+
+/// Got the processor for a while or, on a busy machine, which yielding hands it to, many times.
+bool has_run(const Sight& before, const Sight& now) {
+  constexpr std::uint64_t kEnoughTicks = 10, kEnoughTurns = 100;
+  return now.system_ticks - before.system_ticks >= kEnoughTicks || now.turns - before.turns >= kEnoughTurns;
 }
 
 }  // namespace
@@ -67,10 +75,11 @@ DeadlockWatch::DeadlockWatch(pid_t child) : folder_(fmt::format("/proc/{}", chil
 bool DeadlockWatch::is_deadlocked() {
   constexpr int kEnoughCalls = 4;
   Sight now = look_at(folder_);
-  const bool waits = is_idle(since_, now) && (is_same_wait(since_, now) || only_yields(since_, now));
-  calls_ = waits ? calls_ + 1 : 0;
-  if (!waits) since_ = std::move(now);
-  return calls_ >= kEnoughCalls;
+  const bool waits = is_idle(since_, now) && is_same_wait(since_, now);
+  const bool yields = is_idle(since_, now) && only_yields(since_, now);
+  calls_ = waits || yields ? calls_ + 1 : 0;
+  if (calls_ == 0) since_ = std::move(now);
+  return calls_ >= kEnoughCalls && (waits || has_run(since_, now));
 }
 
 }  // namespace voxlume

@@ -24,6 +24,7 @@ class DeadlockWatch {
     std::string lock_wait;  ///< the system call it is in with its arguments, where that waits for a lock
     std::string io;         ///< what it has read and written
     std::uint64_t faults = 0, user_ticks = 0, system_ticks = 0;
+    std::uint64_t turns = 0;  ///< how often it got a processor; 0 where that is not known
   };
 
  private:

@@ -116,7 +116,7 @@ ChildOutcome listen_to_child(pid_t child, int result, std::chrono::seconds limit
     const int ready = poll(&waiting, 1, kWatchMilliseconds);
     if (ready < 0 && errno == EINTR) continue;
     if (ready <= 0) {
-      outcome.deadlocked = watch.is_deadlocked();
+      outcome.deadlocked = watch.is_deadlocked() && outcome.line.empty();  // else it is about to end
       outcome.timed_out = std::chrono::steady_clock::now() > deadline;
       if (!outcome.deadlocked && !outcome.timed_out) continue;
       kill(child, SIGKILL);

@@ -217,6 +217,7 @@ TEST_F(Opening, OpeningIsGivenUp) {
   page.send({{"type", "cancel_open"}});
   const json status = page.next("status", [](const json& m) { return m["stage"] == "ready"; });
   EXPECT_EQ(status["what"], "ramp.nrrd");
+  EXPECT_EQ(status["given_up"], true);
   page.send(edit(1, "/camera/zoom", 2));
   const json edited = page.next("edited");
   page.next("frame", [&](const json& m) { return m["revision"] == edited["revision"]; });

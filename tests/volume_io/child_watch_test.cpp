@@ -51,7 +51,7 @@ TEST(ChildWatch, TellsALockHeldForEverFromWorkAndFromWaiting) {
   EXPECT_TRUE(is_found_deadlocked([] { mutex.lock(); }, 20));
   mutex.unlock();
   EXPECT_TRUE(is_found_deadlocked([] { sched_yield(); }, 100));
-  EXPECT_FALSE(is_found_deadlocked([] {}, 8));
+  EXPECT_FALSE(is_found_deadlocked([count = 0]() mutable { const_cast<volatile int&>(count) = 1; }, 8));
   EXPECT_FALSE(is_found_deadlocked(read_nothing, 8));
   EXPECT_FALSE(is_found_deadlocked(touch_memory, 8));
   EXPECT_FALSE(is_found_deadlocked([] { pause(); }, 8));

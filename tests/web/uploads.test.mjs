@@ -117,6 +117,20 @@ test("what takes long to open is given up, and what nobody sees is told", async 
   await choose("ball.nrrd");
   await opened(viewer, "ball.nrrd");
   await viewer.done();
+  // Over a scene that was edited: nothing has taken its place, and no way back is offered later.
+  await page.locator(".view").focus();
+  await page.keyboard.press("ArrowRight");
+  const turned = await viewer.sceneWith((s) => s.camera.azimuth_deg !== 0, "another view");
+  await page.keyboard.press("Control+o");
+  await choose("large.nhdr");
+  await page.getByRole("progressbar", { name: "Opening" }).waitFor();
+  await viewer.button("Cancel opening").click();
+  await page.getByRole("progressbar", { name: "Opening" }).waitFor({ state: "detached" });
+  assert.deepEqual((await viewer.scene()).camera, turned.camera);
+  await viewer.undo();
+  await viewer.sceneWith((s) => s.camera.azimuth_deg === 0, "the view before");
+  await viewer.done();
+  assert.equal(await page.getByText(/^Opened/).count(), 0);
   await viewer.panel("Labels");
   await viewer.button("Label volume from a file").click();
   await page.getByRole("dialog", { name: "Add a label volume" }).getByRole("button", { name: /far\.nrrd/ }).click();

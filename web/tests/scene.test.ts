@@ -63,6 +63,7 @@ describe("the scene on the page", () => {
     expect(shown.value!.camera.azimuth_deg).toBe(0);
     Socket.last.say({ type: "edited", seq: 2, revision: 4, sections: {}, can_undo: true, can_redo: false });
     showPassing([["/lights/7/intensity", 1]]);
+    showPassing([]);
     Socket.last.say({ type: "refused", seq: 3, where: "/lights/7", message: "the list has 1 element" });
     expect(refusal.value).toBeNull();
   });

@@ -32,7 +32,7 @@ export function replacing(replace: () => void, then: (before: Scene, after: Scen
       const after = scene.peek()!;
       if (textOf(before) !== textOf(after)) then(before, after);
     }),
-    on("status", (message) => message.stage === "failed" && end()),
+    on("status", (message) => (message.stage === "failed" || message.given_up) && end()),
     on("refused", () => end()),
   ];
   const end = (endLast = () => ends.forEach((stop) => stop()));

@@ -20,8 +20,8 @@ export function presetPicture(name: string): string {
   return `api/preset/${encodeURIComponent(name)}.png?turn=${turn.value}`;
 }
 
-on("status", ({ stage }) => {
-  if (stage !== "ready") return;
+on("status", ({ stage, given_up }) => {
+  if (stage !== "ready" || given_up) return;
   batch(() => {
     ++turn.value;
     names.value = new Set();

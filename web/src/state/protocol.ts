@@ -73,6 +73,8 @@ export interface Status {
   message?: string;
   /** 0 to 1, where known. */
   share?: number;
+  /** What was being opened is not any more; what was open before still is. */
+  given_up?: boolean;
 }
 
 export interface Trouble {

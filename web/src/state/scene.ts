@@ -84,15 +84,16 @@ export function edit(set: readonly Assignment[], gesture?: string): void {
   else flushEdits();
 }
 
-let passingSeq = 0;
+/** Of what was shown in passing and is not answered yet. */
+const passing = new Set<number>();
 
 /** Shows the scene with other values of these fields, without changing it, until something else is shown in passing;
  * an empty list: as it is. */
 export function showPassing(set: readonly Assignment[]): void {
   if (!state.value) return;
   flushEdits();
-  passingSeq = ++lastSeq;
-  send({ type: "passing", seq: passingSeq, set });
+  const seq = ++lastSeq;
+  if (send({ type: "passing", seq, set })) passing.add(seq);
 }
 
 export function undo(): void {
@@ -120,6 +121,7 @@ export function openPath(path: string): void {
 on("hello", () => {
   // All is told anew, and what was not answered before the connection was lost may not have arrived.
   queued = null;
+  passing.clear();
   if (state.value) state.value = { ...state.value, pending: [] };
 });
 
@@ -133,6 +135,7 @@ on("scene", (message) =>
 
 on("edited", (message) =>
   batch(() => {
+    if (message.seq !== undefined) passing.delete(message.seq);
     if (state.value) state.value = edits.edited(state.value, message.sections, message.seq);
     undoable.value = { undo: message.can_undo, redo: message.can_redo };
     revision.value = message.revision;
@@ -142,7 +145,7 @@ on("edited", (message) =>
 on("refused", (message) =>
   batch(() => {
     // Somebody else has changed the scene in the meantime; nothing of it is lost.
-    if (message.seq === passingSeq) return;
+    if (passing.delete(message.seq)) return;
     if (state.value) state.value = edits.refused(state.value, message.seq);
     refusal.value = { where: message.where, message: message.message };
   }),
