@@ -37,6 +37,16 @@ SceneDescription small_scene() {
   return scene;
 }
 
+SceneDescription denoised_scene(int spp) {
+  SceneDescription scene;
+  scene.transfer.preset = "ct-bone";
+  scene.image.width = 192;
+  scene.image.height = 144;
+  scene.image.spp = spp;
+  scene.render.denoise = "decoupled";
+  return scene;
+}
+
 /// Keeps what a session tells.
 class Heard {
  public:
@@ -273,12 +283,7 @@ class ComingToRest : public testing::TestWithParam<double> {};
 
 TEST_P(ComingToRest, ThePictureGetsNoWorse) {
   Heard heard;
-  SceneDescription scene;
-  scene.transfer.preset = "ct-bone";
-  scene.image.width = 192;
-  scene.image.height = 144;
-  scene.image.spp = 64;
-  scene.render.denoise = "decoupled";
+  SceneDescription scene = denoised_scene(64);
   LiveOptions options = quick();
   options.frame_budget_s = GetParam();
   LiveSession live(scene, make_head_phantom(), heard.listener(), options);
@@ -307,12 +312,7 @@ TEST_P(ComingToRest, ThePictureGetsNoWorse) {
 INSTANTIATE_TEST_SUITE_P(Budgets, ComingToRest, testing::Values(1.0 / 30, 3e-3, 1e-6));
 
 TEST(LiveSession, AMovingPictureGoesOnAfterARestWithWhatItRemembers) {
-  SceneDescription scene;
-  scene.transfer.preset = "ct-bone";
-  scene.image.width = 192;
-  scene.image.height = 144;
-  scene.image.spp = 16;
-  scene.render.denoise = "decoupled";
+  SceneDescription scene = denoised_scene(16);
   LiveOptions options = quick();
   options.frame_budget_s = 1e-6;  // as coarse as can be, always
   const auto first_moving = [](Heard& heard, std::uint64_t revision) {
